@@ -79,17 +79,26 @@ TEST(EffectCoverage, EverySenderIsOneEffectAndEveryEffectHasASender) {
 /// Of what a server adds, and of the rules of Fast DDS for descriptors on their way to it.
 TEST(EffectCoverage, TheSameWithAServer) {
   for (const auto discovery : {model::Discovery::server, model::Discovery::super_client}) {
-    model::DdsProfile dds = fastdds();
-    dds.discovery = discovery;
-    const auto impossible = tables::impossible_effects(dds);
-    const CompositionCoverage coverage =
-        effect_coverage(sent_by(all_senders(dds)), dds, impossible);
-    EXPECT_EQ(coverage.unattributed, 0U);
-    EXPECT_EQ(coverage.seen(), coverage.possible());
-    EXPECT_EQ(coverage.rules_seen(), coverage.rules_possible());
-    for (const RuleCoverage& rule : coverage.rules) {
-      for (const EffectCoverage& one : rule.effects) {
-        EXPECT_NE(one.times == 0, one.ruled_out_by.empty()) << one.effect->id;
+    for (const auto known : {model::ServerKnown::guid, model::ServerKnown::locator}) {
+      model::DdsProfile dds = fastdds();
+      dds.discovery = discovery;
+      dds.server.known = known;
+      std::set<Sender> senders = all_senders(dds);
+      // A client begins to talk either at its first announcement or when it meets the server.
+      const auto others = known == model::ServerKnown::guid
+                              ? std::set{sends::server::heartbeat_to_server_met, sends::server::own}
+                              : std::set{sends::server::announces_first,
+                                         sends::server::first_heartbeat};
+      for (const Sender& other : others) EXPECT_EQ(senders.erase(other), 1U);
+      const CompositionCoverage coverage =
+          effect_coverage(sent_by(senders), dds, tables::impossible_effects(dds));
+      EXPECT_EQ(coverage.unattributed, 0U);
+      EXPECT_EQ(coverage.seen(), coverage.possible());
+      EXPECT_EQ(coverage.rules_seen(), coverage.rules_possible());
+      for (const RuleCoverage& rule : coverage.rules) {
+        for (const EffectCoverage& one : rule.effects) {
+          EXPECT_NE(one.times == 0, one.ruled_out_by.empty()) << one.effect->id;
+        }
       }
     }
   }
