@@ -33,7 +33,7 @@ enum class Figure : std::uint8_t {
   payload_bytes,        ///< their UDP payloads
   last_open,            ///< ns from the first announcement to the last `heartbeat_open`
   last_initial,         ///< ns from the first announcement to the last initial DATA
-  user_control,         ///< HEARTBEATs and ACKNACKs of liveliness and user topics
+  user_control,         ///< HEARTBEATs and ACKNACKs of liveliness, topics, lookups
   // Only with a Discovery Server, whose announcements are reliable.
   pdp_data,  ///< DATA(p)
   pdp_heartbeat,

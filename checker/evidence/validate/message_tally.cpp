@@ -145,8 +145,7 @@ std::optional<MessageClass> MessageTally::add_submessage(const model::Submessage
     return packet.multicast() ? MessageClass::spdp_multicast : MessageClass::spdp_unicast;
   }
   if (m.writer > writer::subscriptions) {
-    const bool is_control = m.writer == writer::liveliness || m.writer >= writer::first_topic;
-    if (is_control && m.kind != Kind::data) ++tally_[index_of(Figure::user_control)];
+    if (m.kind != Kind::data) ++tally_[index_of(Figure::user_control)];
     return std::nullopt;
   }
   if (m.kind == Kind::heartbeat) return MessageClass::heartbeat;

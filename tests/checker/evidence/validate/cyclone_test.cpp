@@ -39,7 +39,7 @@ TEST(CycloneTally, CountsWhatTheRunCounts) {
     EXPECT_LE(of(tally.tally(), Figure::initial_pulled), run.counts.initial_data) << vector.name;
     EXPECT_GT(of(tally.tally(), Figure::initial_pulled), 0U) << vector.name;
     EXPECT_LT(of(tally.tally(), Figure::user_control), run.user_control)
-        << vector.name << ": DATA, and the writers of type lookup, are not among it";
+        << vector.name << ": DATA is not among it";
   }
 }
 
