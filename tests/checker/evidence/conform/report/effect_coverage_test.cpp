@@ -85,10 +85,10 @@ TEST(EffectCoverage, TheSameWithAServer) {
       dds.server.known = known;
       std::set<Sender> senders = all_senders(dds);
       // A client begins to talk either at its first announcement or when it meets the server.
-      const auto others = known == model::ServerKnown::guid
-                              ? std::set{sends::server::heartbeat_to_server_met, sends::server::own}
-                              : std::set{sends::server::announces_first,
-                                         sends::server::first_heartbeat};
+      const auto others =
+          known == model::ServerKnown::guid
+              ? std::set{sends::server::heartbeat_to_server_met, sends::server::own}
+              : std::set{sends::server::announces_first, sends::server::first_heartbeat};
       for (const Sender& other : others) EXPECT_EQ(senders.erase(other), 1U);
       const CompositionCoverage coverage =
           effect_coverage(sent_by(senders), dds, tables::impossible_effects(dds));
