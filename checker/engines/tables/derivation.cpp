@@ -248,7 +248,8 @@ Expr Derivation::input(const std::string& name) {
 Expr Derivation::unknown() { return input(hidden_input + std::to_string(inputs_.size())); }
 
 Expr Derivation::unknown_count() {
-  const std::string name = hidden_input + std::to_string(inputs_.size());
+  // Each step numbers its inputs anew: a name of two types cvc5 does not read.
+  const std::string name = std::string{hidden_input, 'n'} + std::to_string(inputs_.size());
   inputs_.push_back(context_of_derivation().int_const(name.c_str()));
   require(inputs_.back() >= 0);
   return inputs_.back();
