@@ -16,6 +16,15 @@ struct Said {
   const Answer* answer = nullptr;
 };
 
+/// Before a reader of Cyclone DDS has seen a HEARTBEAT.
+std::optional<Unexplained> judge_preemptive(const Said& said) {
+  if (said.answer->count == 0) return std::nullopt;
+  return unexplained_in(*said.relation, said.answer->event, Fault::acknack_count,
+                        fmt::format("pre-emptive ACKNACK {}", said.answer->count),
+                        "a pre-emptive ACKNACK is not counted: its count is 0",
+                        {{"another count", {}, {}}});
+}
+
 std::optional<Unexplained> judge(const std::vector<Said>& said, bool shows_all) {
   for (std::size_t k = 1; k < said.size(); ++k) {
     const Answer& one = *said[k].answer;
@@ -43,7 +52,14 @@ AckNackCounts::AckNackCounts(const Dialogue& dialogue, bool of_each_writer) {
   for (const Relation& relation : dialogue.relations) {
     Place reader = relation.place;
     if (!of_each_writer) reader.source = 0;
-    for (const Answer& answer : relation.answers) readers[reader].push_back({&relation, &answer});
+    for (const Answer& answer : relation.answers) {
+      const Said said{&relation, &answer};
+      if (!of_each_writer || !answer.is_initial) {
+        readers[reader].push_back(said);
+      } else if (auto fault = judge_preemptive(said)) {
+        faults_.emplace(fault->place, *std::move(fault));
+      }
+    }
   }
   for (auto& [reader, said] : readers) {
     std::ranges::sort(said, {}, [](const Said& one) { return one.answer->event; });

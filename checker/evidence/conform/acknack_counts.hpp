@@ -1,6 +1,6 @@
 // The counts of ACKNACKs. A reader of Fast DDS counts all that it sends, whichever writer they are
-// for, one of Cyclone DDS those to each writer; and both send what they have counted before they
-// count on.
+// for, one of Cyclone DDS those to each writer but for its pre-emptive ones, whose count is 0; and
+// both send what they have counted before they count on.
 #pragma once
 
 #include <map>

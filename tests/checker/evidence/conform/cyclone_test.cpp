@@ -334,5 +334,25 @@ TEST_P(CycloneMistake, BreaksARule) {
 INSTANTIATE_TEST_SUITE_P(Edited, CycloneMistake, ::testing::ValuesIn(mistakes()),
                          [](const auto& one) { return std::string{one.param.name}; });
 
+/// Readers that ask before the writer's first HEARTBEAT has come.
+TEST(CycloneCounts, PreEmptiveAcknacksHaveNone) {
+  model::Scenario scenario = long_run(1, "cyclonedds-0.10");
+  scenario.dds.sedp.preemptive_ack_delay = model::Nanoseconds{ms / 10};
+  Simulated run = simulated(scenario);
+  const Bounds bounds = bounds_of(scenario, run);
+  const Conformance before = conformance(run.conversation, scenario.dds, bounds);
+  EXPECT_TRUE(is_explained(before)) << description(before);
+  const std::size_t first = find(run.conversation, [](const Event& event) {
+    return is_sedp(event) && event.acknack() != nullptr && event.acknack()->is_initial();
+  });
+  auto acknack = *run.conversation.events[first].acknack();
+  acknack.count = 1;
+  run.conversation.events[first].content = acknack;
+  const Conformance result = conformance(run.conversation, scenario.dds, bounds);
+  ASSERT_EQ(result.unexplained.size(), 1U) << description(result);
+  EXPECT_EQ(result.unexplained.front().event, first);
+  EXPECT_EQ(result.unexplained.front().fault, Fault::acknack_count);
+}
+
 }  // namespace cyclone_test
 }  // namespace stormproof::conform::testing
