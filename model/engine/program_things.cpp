@@ -8,7 +8,6 @@
 #include "fsm/composition/fastdds_life.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/timer_kinds.hpp"
-#include "model/fastdds/endpoints.hpp"
 
 namespace stormproof::model {
 namespace {
@@ -62,7 +61,7 @@ std::map<std::string_view, Value> values() {
   });
   // Whether there are types to ask for is the deployment's, whether anybody can the profile's.
   all.emplace(fsm::full_name_of<comp::lookup::AsksForTypes>(), [](const DdsProfile& dds) {
-    return static_cast<std::int64_t>(fastdds::looks_up_types(dds));
+    return static_cast<std::int64_t>(knob_value(comp::fastdds::LooksUpTypes{}, dds));
   });
   return all;
 }
