@@ -113,8 +113,13 @@ void Specialiser::start(const fsm::program::Step& step, Change change) {
                        .value = wait});
 }
 
+/// Packets of control-only relations are not explored: only a mistake gets to a lookup of types,
+/// which no profile that is explored has.
 void Specialiser::emit(const fsm::program::Step& step) {
   const auto what = what_of_packet(program_, step.target);
+  if (!what && thing(step.target).owner == fsm::composition::owner::control_relation) {
+    return put({.act = Act::overflow});
+  }
   if (!what) throw std::logic_error{"a packet that is not explored"};
   Step made{.act = Act::emit, .event = *what};
   for (std::size_t k = 0; k < step.with.size(); ++k) {
