@@ -1,6 +1,7 @@
 // The ways to discover that users switch between, as scenarios beside the user's own: Fast DDS by
 // multicast, with a Discovery Server on a robot or on a host of its own, with super clients, with
-// static peers, with a larger send buffer, with one process on each host; Cyclone DDS by unicast,
+// static peers, with a larger send buffer, with one process on each host, and, where participants
+// look up types (Fast DDS 3), with types that are not announced; Cyclone DDS by unicast,
 // by multicast, and with the setting of it that helped most in live runs.
 #pragma once
 

@@ -22,9 +22,8 @@ std::vector<Change> changes_of(const Space& space, const Point& point) {
   std::vector<Change> changes;
   for (const std::size_t d : space.changes(point)) {
     const Dimension& dimension = space.dimensions[d];
-    changes.push_back({dimension.key, dimension.setting,
-                       model::config::print_quantity(dimension.unit, dimension.unchanged),
-                       model::config::print_quantity(dimension.unit, point[d]), dimension.note});
+    changes.push_back({dimension.key, dimension.setting, dimension.print(dimension.unchanged),
+                       dimension.print(point[d]), dimension.note});
   }
   return changes;
 }

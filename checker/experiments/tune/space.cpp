@@ -1,14 +1,18 @@
-// The join of two tables: the numeric knobs of the scenario, and the vendor's.
+// The join of two tables: the numeric knobs and switches of the scenario, and the vendor's.
 #include "checker/experiments/tune/space.hpp"
 
 #include <algorithm>
 #include <cmath>
+
+#include "model/config/knobs/other_choices.hpp"
 
 namespace stormproof::tune {
 
 namespace {
 
 using model::config::NumericKnob;
+using model::config::OtherChoices;
+using model::config::vendor::VendorKnob;
 
 /// `value` with two digits that count.
 std::int64_t rounded(double value) {
@@ -19,6 +23,44 @@ std::int64_t rounded(double value) {
 
 /// Log scale of a range that may begin at 0: the least step above 0 is 1.
 double lowest(std::int64_t minimum) { return std::max(1.0, static_cast<double>(minimum)); }
+
+constexpr std::string_view off = "false";
+constexpr std::string_view on = "true";
+
+bool is_switch(const OtherChoices& choice) { return choice.value == off || choice.value == on; }
+
+/// The profile with the switch `key` turned, if there is one.
+model::DdsProfile turned(const model::DdsProfile& dds, const std::string& key) {
+  const std::vector<OtherChoices> choices = model::config::other_choices(dds);
+  const auto found = std::ranges::find(choices, key, &OtherChoices::key);
+  return found == choices.end() ? dds : found->others.front();
+}
+
+/// What is searched of a knob that the vendor's library has; nothing if it is a word that is no
+/// switch.
+std::optional<Dimension> dimension_of(const std::string& key, const VendorKnob& knob,
+                                      std::span<const NumericKnob> numbers,
+                                      std::span<const OtherChoices> choices) {
+  Dimension dimension;
+  dimension.key = key;
+  dimension.setting = knob.setting;
+  dimension.note = knob.why;
+  if (const auto number = std::ranges::find(numbers, key, &NumericKnob::key);
+      number != numbers.end()) {
+    dimension.unit = number->unit;
+    dimension.minimum = std::max(knob.minimum, number->minimum);
+    dimension.maximum = std::min(knob.maximum, number->maximum);
+    dimension.unchanged = number->value;
+    return dimension;
+  }
+  const auto choice = std::ranges::find(choices, key, &OtherChoices::key);
+  if (choice == choices.end() || !is_switch(*choice)) return std::nullopt;
+  dimension.unit = NumericKnob::Unit::things;
+  dimension.maximum = 1;
+  dimension.unchanged = choice->value == on ? 1 : 0;
+  dimension.is_switch = true;
+  return dimension;
+}
 
 }  // namespace
 
@@ -46,6 +88,11 @@ double Dimension::position_of(std::int64_t value) const {
                           : (at - from) / (to - from);
 }
 
+std::string Dimension::print(std::int64_t value) const {
+  if (is_switch) return std::string{value == 0 ? off : on};
+  return model::config::print_quantity(unit, value);
+}
+
 Point Space::unchanged() const {
   Point point;
   for (const Dimension& dimension : dimensions) point.push_back(dimension.unchanged);
@@ -62,6 +109,10 @@ std::vector<std::size_t> Space::changes(const Point& point) const {
 
 model::Scenario Space::apply(model::Scenario scenario, const Point& point) const {
   for (const std::size_t d : changes(point)) {
+    if (dimensions[d].is_switch) {
+      scenario.dds = turned(scenario.dds, dimensions[d].key);
+      continue;
+    }
     // In range by construction: `space_of` intersects both tables' ranges.
     static_cast<void>(model::config::set_numeric_knob(scenario, dimensions[d].key, point[d]));
   }
@@ -74,30 +125,21 @@ std::optional<std::size_t> Space::find(std::string_view key) const {
   return static_cast<std::size_t>(found - dimensions.begin());
 }
 
-Space space_of(const model::Scenario& scenario,
-               std::span<const model::config::vendor::VendorKnob> knobs) {
-  const std::vector<NumericKnob> numeric = model::config::numeric_knobs(scenario);
+Space space_of(const model::Scenario& scenario, std::span<const VendorKnob> knobs) {
+  const std::vector<NumericKnob> numbers = model::config::numeric_knobs(scenario);
+  const std::vector<OtherChoices> choices = model::config::other_choices(scenario.dds);
   Space space;
-  for (const auto& knob : knobs) {
+  for (const VendorKnob& knob : knobs) {
     const std::string key = "dds." + std::string{knob.key};
     if (knob.setting.empty()) {
       space.fixed.push_back({key, std::string{knob.why}});
       continue;
     }
-    const auto found = std::ranges::find(numeric, key, &NumericKnob::key);
-    if (found == numeric.end()) {
-      space.fixed.push_back({key, "not a number in this profile; only numbers are searched"});
-      continue;
-    }
-    Dimension dimension{key,
-                        std::string{knob.setting},
-                        std::string{knob.why},
-                        found->unit,
-                        std::max(knob.minimum, found->minimum),
-                        std::min(knob.maximum, found->maximum),
-                        found->value};
-    if (dimension.minimum < dimension.maximum) {
-      space.dimensions.push_back(std::move(dimension));
+    std::optional<Dimension> dimension = dimension_of(key, knob, numbers, choices);
+    if (!dimension) {
+      space.fixed.push_back({key, "no number or switch in this profile; only these are searched"});
+    } else if (dimension->minimum < dimension->maximum) {
+      space.dimensions.push_back(*std::move(dimension));
     } else {
       space.fixed.push_back({key, "only one value is possible"});
     }

@@ -1,7 +1,7 @@
-// What may be searched: the numeric knobs of the model that a user of the vendor's library can
-// change, within the ranges that the library and a sensible deployment allow. Values are rounded to
-// two digits: nobody wants to read 3,981,072 where 4,000,000 does the same, and a coarser space is
-// searched sooner.
+// What may be searched: the numeric knobs and switches of the model that a user of the vendor's
+// library can change, within the ranges that the library and a sensible deployment allow. Values
+// are rounded to two digits: nobody wants to read 3,981,072 where 4,000,000 does the same, and a
+// coarser space is searched sooner.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,7 @@ struct Dimension {
   model::config::NumericKnob::Unit unit{};
   std::int64_t minimum = 0, maximum = 0;  ///< what is searched
   std::int64_t unchanged = 0;             ///< in the scenario; may be outside of what is searched
+  bool is_switch = false;                 ///< 0 is "false", 1 "true"
 
   /// Whether the search thinks of this knob in factors: the range spans two decades or more.
   [[nodiscard]] bool is_logarithmic() const;
@@ -31,6 +32,8 @@ struct Dimension {
   [[nodiscard]] std::int64_t value_at(double position) const;
   /// The inverse, but for rounding; the nearest end for a value outside of the range.
   [[nodiscard]] double position_of(std::int64_t value) const;
+  /// As a file would say it: "1.5ms", "true".
+  [[nodiscard]] std::string print(std::int64_t value) const;
 };
 
 /// A knob that is not searched, and why.

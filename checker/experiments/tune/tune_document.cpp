@@ -139,11 +139,8 @@ class Builder {
   void searched() {
     Facts facts;
     for (const Dimension& d : report_.space.dimensions) {
-      const auto print = [&](std::int64_t value) {
-        return model::config::print_quantity(d.unit, value);
-      };
-      facts.rows.emplace_back(d.key, fmt::format("{}, searched from {} to {}", print(d.unchanged),
-                                                 print(d.minimum), print(d.maximum)));
+      facts.rows.emplace_back(d.key, fmt::format("{}, searched from {} to {}", d.print(d.unchanged),
+                                                 d.print(d.minimum), d.print(d.maximum)));
     }
     document_.blocks.emplace_back(std::move(facts));
   }

@@ -70,9 +70,9 @@ template <class V>
 void describe(V& v, const Dimension& d) {
   v("key", d.key);
   v("setting", d.setting);
-  v("unchanged", model::config::print_quantity(d.unit, d.unchanged));
-  v("minimum", model::config::print_quantity(d.unit, d.minimum));
-  v("maximum", model::config::print_quantity(d.unit, d.maximum));
+  v("unchanged", d.print(d.unchanged));
+  v("minimum", d.print(d.minimum));
+  v("maximum", d.print(d.maximum));
   v("note", d.note);
 }
 

@@ -166,6 +166,26 @@ TEST(CompareDiscovery, FilesSayWhatWasCompared) {
                        "cyclone-multicast.env", "cyclone-heartbeat.xml", "cyclone-heartbeat.env"}));
 }
 
+TEST(CompareDiscovery, WhereTypesAreLookedUpNotToAnnounceThemIsAWay) {
+  Request request = request_of({"dds=fastdds-3.6", "deployment.types.unknown_per_participant=3"});
+  request.samples = 1;
+  request.sizes = {2};
+  const Report report = compared(request);
+  const auto lookups = [&](const std::string& id) {
+    return row_of(report, id).cells.front().runs.front().counts.lookup;
+  };
+  EXPECT_GT(lookups("simple"), 0U);
+  EXPECT_EQ(lookups("registration-only"), 0U);
+  const auto files = deployment_files(row_of(report, "registration-only").candidate,
+                                      row_of(report, "registration-only").candidate.dds, specs);
+  ASSERT_TRUE(files) << to_string(files.error());
+  EXPECT_NE(files->front().text.find("registration_only"), std::string::npos)
+      << files->front().text;
+  for (const Row& row : compared(request_of({})).rows) {
+    EXPECT_NE(row.candidate.id, "registration-only") << "Fast DDS 2 looks up nothing";
+  }
+}
+
 TEST(CompareDiscovery, AMistakeIsOneOfTheScenario) {
   EXPECT_FALSE(compare(request_of({"deployment.hosts=0"}), specs));
 }

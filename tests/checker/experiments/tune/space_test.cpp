@@ -64,6 +64,26 @@ TEST(TuneSpace, SearchesWhatAUserCanSet) {
   EXPECT_FALSE(space.fixed.empty());
 }
 
+TEST(TuneSpace, SearchesSwitches) {
+  const auto subject = subject_of({"dds=fastdds-3.6"});
+  ASSERT_TRUE(subject) << to_string(subject.error());
+  const Space space = space_of(subject->scenario, vendor::vendor_knobs(subject->vendor));
+  const auto found = space.find("dds.type_lookup");
+  ASSERT_TRUE(found);
+  const Dimension& lookup = space.dimensions[*found];
+  EXPECT_EQ(lookup.print(lookup.unchanged), "true");
+  EXPECT_EQ(lookup.print(lookup.value_at(0)), "false");
+  Point point = space.unchanged();
+  EXPECT_EQ(space.apply(subject->scenario, point), subject->scenario);
+  point[*found] = 0;
+  const model::Scenario changed = space.apply(subject->scenario, point);
+  EXPECT_EQ(changed.dds.version.type_lookup, model::Whether::no);
+  model::Scenario only_that = changed;
+  only_that.dds.version.type_lookup = model::Whether::yes;
+  EXPECT_EQ(only_that, subject->scenario);
+  EXPECT_FALSE(space.find("dds.discovery")) << "a word among many";
+}
+
 TEST(TuneSpace, AppliesAndTellsChanges) {
   const auto subject = subject_of({"dds=fastdds-2.6.11"});
   ASSERT_TRUE(subject);
