@@ -2,6 +2,7 @@
 #include "checker/evidence/capture/library_version.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@ namespace stormproof::capture {
 
 namespace {
 
-constexpr std::uint16_t product_version = 0x8000;
 constexpr std::uint16_t network_configuration_set = 0x8007;
 constexpr std::uint16_t cyclonedds_version_info = 0x8007;
 constexpr VendorId connext_vendor = 0x0101;
@@ -57,6 +57,24 @@ std::string library_version(VendorId vendor, const VendorParameters& parameters,
     return octets == nullptr ? "" : from_octets(*octets);
   }
   return "";
+}
+
+/// "2.12" of "2.x from 2.12 on" is found behind its word, and the hyphen of "fastdds-3.6" is no
+/// sign.
+std::optional<std::pair<unsigned, unsigned>> version_in(std::string_view text) {
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    unsigned major = 0;
+    unsigned minor = 0;
+    const char* end = text.data() + text.size();
+    const auto first = std::from_chars(text.data() + at, end, major);
+    if (first.ec != std::errc{}) continue;
+    if (first.ptr != end && *first.ptr == '.' &&
+        std::from_chars(first.ptr + 1, end, minor).ec == std::errc{}) {
+      return std::pair{major, minor};
+    }
+    at = static_cast<std::size_t>(first.ptr - text.data());
+  }
+  return std::nullopt;
 }
 
 }  // namespace stormproof::capture

@@ -8,12 +8,18 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "checker/evidence/capture/bytes.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
 
 namespace stormproof::capture {
+
+/// PID_PRODUCT_VERSION.
+inline constexpr std::uint16_t product_version = 0x8000;
 
 /// The parameters of a DATA(p) whose numbers a vendor gave, by number.
 using VendorParameters = std::map<std::uint16_t, Bytes>;
@@ -22,5 +28,8 @@ using VendorParameters = std::map<std::uint16_t, Bytes>;
 /// nothing is known. Nothing in it is a control character.
 [[nodiscard]] std::string library_version(VendorId vendor, const VendorParameters& parameters,
                                           ByteOrder order);
+
+/// The first two numbers in `text`: 2 and 12 of "2.x from 2.12 on", 3 and 6 of "fastdds-3.6".
+[[nodiscard]] std::optional<std::pair<unsigned, unsigned>> version_in(std::string_view text);
 
 }  // namespace stormproof::capture

@@ -13,6 +13,7 @@
 #include "checker/evidence/conform/dialogue.hpp"
 #include "checker/evidence/conform/heartbeats.hpp"
 #include "checker/evidence/conform/ledger.hpp"
+#include "checker/evidence/conform/library.hpp"
 #include "checker/evidence/conform/machines.hpp"
 #include "checker/evidence/conform/reader_side.hpp"
 #include "checker/evidence/conform/server.hpp"
@@ -92,11 +93,13 @@ class Check {
   }
 
   void announcements(std::size_t i) {
-    if (dialogue_.server == i) return;  // it answers
     at({i, {}, capture::entity::spdp_writer}, [&](Ledger& ledger) {
       if (is_of_cyclone_) return cyclone::explain_announcements(context_, i, ledger);
-      if (has_server_) return server::explain_registration(context_, i, ledger);
-      return explain_announcements(context_, i, ledger);
+      auto other = other_version(context_, i);
+      if (dialogue_.server == i) return other;  // it answers
+      auto fault = has_server_ ? server::explain_registration(context_, i, ledger)
+                               : explain_announcements(context_, i, ledger);
+      return earlier(std::move(other), std::move(fault));
     });
   }
 

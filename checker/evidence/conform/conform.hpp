@@ -117,10 +117,11 @@ enum class Fault : std::uint8_t {
   initial_late,             ///< initial ACKNACK after its time
   initial_after_heartbeat,  ///< initial ACKNACK although a HEARTBEAT was answered before
   unanswered,               ///< received, and not answered in time (only without losses)
+  other_version,            ///< another version's announcements than the profile's
   number_beyond,            ///< a sequence number beyond all belief; such an event is set aside
   no_such_rule  ///< the profile has nothing that sends this (DATA_FRAG, another vendor's, …)
 };
-inline constexpr std::size_t fault_count = 24;
+inline constexpr std::size_t fault_count = 25;
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 /// A relation, or a participant's own affairs if there is no destination.

@@ -2,12 +2,12 @@
 #include "checker/evidence/doctor/advise.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "checker/evidence/capture/library_version.hpp"
 #include "checker/evidence/conform/ranking.hpp"
 #include "checker/evidence/validate/validate.hpp"
 #include "checker/experiments/tune/deploy.hpp"
@@ -30,27 +30,9 @@ namespace vendor = model::config::vendor;
 constexpr model::Nanoseconds another_day{20'000'000};
 constexpr std::size_t most_advice = 3;
 
-/// The first two numbers in `text`: "2.12" of "2.x from 2.12 on" is found behind its word, and the
-/// hyphen of "fastdds-3.6" is no sign.
-std::optional<std::pair<unsigned, unsigned>> version_in(std::string_view text) {
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    unsigned major = 0;
-    unsigned minor = 0;
-    const char* end = text.data() + text.size();
-    const auto first = std::from_chars(text.data() + at, end, major);
-    if (first.ec != std::errc{}) continue;
-    if (first.ptr != end && *first.ptr == '.' &&
-        std::from_chars(first.ptr + 1, end, minor).ec == std::errc{}) {
-      return std::pair{major, minor};
-    }
-    at = static_cast<std::size_t>(first.ptr - text.data());
-  }
-  return std::nullopt;
-}
-
 /// Whether a preset is of a version that what was seen allows.
 bool agrees(const std::string& seen, std::pair<unsigned, unsigned> preset) {
-  const auto version = version_in(seen);
+  const auto version = capture::version_in(seen);
   if (!version) return true;
   if (seen.find("before") != std::string::npos) return preset < *version;
   if (seen.find("from") != std::string::npos) {
@@ -68,7 +50,7 @@ std::vector<std::string> profiles_of(const Product& product) {
     const auto whose = vendor::vendor_of_preset(name);
     if (!whose || vendor::name_of(*whose) != product.vendor) continue;
     all.push_back(name);
-    const auto version = version_in(name);
+    const auto version = capture::version_in(name);
     if (version && agrees(product.version, *version)) of_version.push_back(name);
   }
   return of_version.empty() ? all : of_version;
@@ -193,9 +175,9 @@ void switch_lookups_off(const std::vector<std::string>& profiles, const Request&
                         Report& report) {
   const SpecPath specs = SpecPath::standard();
   std::vector<std::string> names = report.presets.empty() ? profiles : report.presets;
-  const auto seen = version_in(report.products.front().version);
-  std::ranges::stable_partition(names,
-                                [&](const std::string& name) { return version_in(name) == seen; });
+  const auto seen = capture::version_in(report.products.front().version);
+  std::ranges::stable_partition(
+      names, [&](const std::string& name) { return capture::version_in(name) == seen; });
   for (const std::string& name : names) {
     const auto base = model::config::read_dds_profile(name, {}, specs);
     const auto whose = vendor::vendor_of_preset(name);

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "model/config/vendor/vendor_profile.hpp"
+#include "model/dds_profile.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
 
@@ -39,6 +40,11 @@ inline constexpr Version oldest_version = 206;
 [[nodiscard]] std::string print_version(Version version);
 /// Of a preset: "fastdds-2.14.5…" is 214; any other name is that of the default preset.
 [[nodiscard]] Version version_of(std::string_view base);
+/// Of what is announced.
+[[nodiscard]] constexpr model::SizesSince sizes_in(Version version) {
+  if (version < 302) return model::SizesSince::v2_6;
+  return version < 306 ? model::SizesSince::v3_2 : model::SizesSince::v3_6;
+}
 
 /// Since when a <discoveryServersList> holds locators instead of servers with prefixes.
 inline constexpr Version servers_by_address = 300;

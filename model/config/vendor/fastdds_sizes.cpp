@@ -19,11 +19,10 @@ constexpr std::int64_t default_segment = 524'288;  ///< of shared memory
 constexpr std::int64_t largest_message = 65'500;   ///< TransportInterface.h:33
 constexpr std::int64_t largest_buffer = 2'147'483'647;
 
-/// The sizes of the version.
-DdsProfile sizes_in(Version version) {
+/// With the sizes of the version.
+DdsProfile profile_of(Version version) {
   DdsProfile dds;
-  if (version >= 302) dds.version.sizes = SizesSince::v3_2;
-  if (version >= 306) dds.version.sizes = SizesSince::v3_6;
+  dds.version.sizes = sizes_in(version);
   return dds;
 }
 /// A packet with the largest descriptor of a ROS 2 node, for one receiver.
@@ -207,7 +206,7 @@ void interpret_message_size(Reading& reading) {
   }
   if (all.empty()) return;
   const Contribution& least = *std::ranges::min_element(all, {}, &Contribution::bytes);
-  const DdsProfile dds = sizes_in(reading.version);
+  const DdsProfile dds = profile_of(reading.version);
   const std::int64_t announcement = model::fastdds::sizes_of(dds).announcement;
   if (least.bytes < announcement) {
     return set_outside(

@@ -39,7 +39,8 @@ class CaptureProbe::Implementation {
         layout_{model::fastdds::deployed_profile(scenario)},
         identities_{write::identities(
             scenario.deployment, vendor_,
-            traits_.has_server ? scenario.dds.discovery : model::Discovery::simple)},
+            traits_.has_server ? scenario.dds.discovery : model::Discovery::simple,
+            scenario.dds.version.sizes)},
         cyclone_{scenario, vendor_, identities_},
         of_server_{scenario, vendor_, identities_},
         pcap_{std::move(sink)} {}

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "checker/evidence/capture/library_version.hpp"
 #include "checker/evidence/capture/parameter_list.hpp"
 
 namespace stormproof::capture::write {
@@ -50,6 +51,10 @@ ParameterWriter participant_parameters(const Identity& participant, VendorId ven
   out.octets(pid::lease_duration, lease.u32(lease_seconds).u32(0).buffer());
   out.number(pid::builtin_endpoint_set, builtin_endpoints);
   out.text(id_of(ParameterId::entity_name), participant.name);
+  if (participant.version[0] > 0) {
+    out.octets(product_version,
+               std::array<std::uint8_t, 4>{participant.version[0], participant.version[1], 0, 0});
+  }
   if (participant.type.empty()) return out;
   ByteWriter properties;
   properties.u32(1).text("PARTICIPANT_TYPE").text(participant.type);

@@ -29,6 +29,19 @@ TopicName service(std::uint32_t k, bool is_reply, const std::string& node) {
       fmt::format("rcl_interfaces::srv::dds_::{}_{}_", type, is_reply ? "Response" : "Request")};
 }
 
+/// Fast DDS says its version from 3.0 on.
+std::array<std::uint8_t, 2> announced_version(model::SizesSince sizes) {
+  switch (sizes) {
+    case model::SizesSince::v2_6:
+      break;
+    case model::SizesSince::v3_2:
+      return {3, 2};
+    case model::SizesSince::v3_6:
+      return {3, 6};
+  }
+  return {};
+}
+
 UdpEnd at(std::size_t host, std::size_t port) {
   const std::array<std::uint8_t, 4> address{10, static_cast<std::uint8_t>(host / 256),
                                             static_cast<std::uint8_t>(host % 256), 1};
@@ -38,7 +51,7 @@ UdpEnd at(std::size_t host, std::size_t port) {
 }  // namespace
 
 std::vector<Identity> identities(const model::Deployment& deployment, VendorId vendor,
-                                 model::Discovery discovery) {
+                                 model::Discovery discovery, model::SizesSince sizes) {
   constexpr std::size_t server_port = 11811;
   const bool is_super = discovery == model::Discovery::super_client;
   const bool has_server = is_super || discovery == model::Discovery::server;
@@ -59,6 +72,7 @@ std::vector<Identity> identities(const model::Deployment& deployment, VendorId v
     one.metatraffic = at(host, metatraffic_port(p));
     one.user = at(host, metatraffic_port(p) + 1U);
     one.name = fmt::format("simulated_h{}_p{}", on.value, p);
+    one.version = announced_version(sizes);
     if (has_server) one.type = is_super ? "SUPER_CLIENT" : "CLIENT";
     result.push_back(std::move(one));
     return host;

@@ -3,6 +3,7 @@
 // same ones in every capture of a deployment.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,13 +35,17 @@ struct Identity {
   std::string name{};    ///< simulated_hH_pP, with the host's number in the deployment
   /// PARTICIPANT_TYPE where there is a Discovery Server; otherwise empty, and not announced.
   std::string type{};
+  /// Major and minor number of the library's version, which it announces; 0.0: it does not.
+  std::array<std::uint8_t, 2> version{};
 };
 
-/// In the order of the deployment. With a Discovery Server it is the last one, called
+/// In the order of the deployment, of a version whose announcements have these sizes. With a
+/// Discovery Server it is the last one, called
 /// simulated_server, with port 11811 of the first host.
 [[nodiscard]] std::vector<Identity> identities(
     const model::Deployment& deployment, VendorId vendor,
-    model::Discovery discovery = model::Discovery::simple);
+    model::Discovery discovery = model::Discovery::simple,
+    model::SizesSince sizes = model::SizesSince::v2_6);
 
 /// Of the p-th participant of a host, from 0 on.
 [[nodiscard]] constexpr std::uint16_t metatraffic_port(std::size_t p) {

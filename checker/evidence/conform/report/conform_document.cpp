@@ -232,8 +232,8 @@ class ConformPage {
     }
     std::string text = fmt::format(
         "Only what sends can be seen: {} of the composition's {} effects. The others feed "
-        "machines, "
-        "set state, start timers or belong to liveliness and user topics, and are counted nowhere. "
+        "machines, set state, start timers or belong to liveliness, user topics and lookups of "
+        "types, and are counted nowhere. "
         "stormproof draw composition --dds {} shows all of them.",
         coverage.observable(), coverage.observable() + coverage.unobservable.size(),
         report_.profile.substr(0, report_.profile.find(' ')));

@@ -94,6 +94,8 @@ std::string_view rule_broken_by(Fault fault) {
       return "a reader that has seen a HEARTBEAT sends no initial ACKNACK";
     case Fault::unanswered:
       return "what was received is answered in time; without losses everything is received";
+    case Fault::other_version:
+      return "announcements are those of a version that the profile speaks of (dds.sizes)";
     case Fault::number_beyond:
       return "descriptors are numbered from 1 on, as many as the writer has endpoints";
     case Fault::no_such_rule:

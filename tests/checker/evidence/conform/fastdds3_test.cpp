@@ -2,6 +2,7 @@
 // message, and HEARTBEATs that ride when the messages of a participant have filled a group.
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -17,7 +18,7 @@ namespace fastdds3_test {
 struct Shipped {
   std::string name;
   std::string profile;
-  bool looks_up = true;  ///< the capture shows it
+  bool looks_up = true;  ///< the capture shows it, not only that the version does
 };
 
 std::ostream& operator<<(std::ostream& out, const Shipped& one) { return out << one.name; }
@@ -42,14 +43,29 @@ TEST_P(Fastdds3Capture, ConformsToItsVersion) {
   EXPECT_EQ(result.lost, 0U);
 }
 
-/// Version 2.14.5 has the same timers, and no such endpoints.
+/// Version 2.14.5 has the same timers, and neither such endpoints nor such announcements.
 TEST_P(Fastdds3Capture, DoesNotConformToAVersionThatLooksUpNothing) {
   const auto conversation = shipped("fastdds-3/" + GetParam().name);
   const Conformance result = conformance(conversation, profile("fastdds-2.14.5"));
-  EXPECT_EQ(result.verdict, GetParam().looks_up ? Verdict::does_not_conform : Verdict::conforms);
+  EXPECT_EQ(result.verdict, Verdict::does_not_conform);
+  std::set<Fault> faults;
   for (const Unexplained& one : result.unexplained) {
-    EXPECT_EQ(one.fault, Fault::no_such_rule) << description(result);
-    EXPECT_EQ(one.what, "a lookup of types");
+    faults.insert(one.fault);
+    if (one.fault == Fault::no_such_rule) {
+      EXPECT_EQ(one.what, "a lookup of types");
+    }
+  }
+  std::set<Fault> expected{Fault::other_version};
+  if (GetParam().looks_up) expected.insert(Fault::no_such_rule);
+  EXPECT_EQ(faults, expected) << description(result);
+}
+
+/// Of two versions of Fast DDS 3 at most one is meant, and nobody takes it for a version before 3.
+TEST_P(Fastdds3Capture, ConformsToNoOtherVersion) {
+  const auto conversation = shipped("fastdds-3/" + GetParam().name);
+  for (const char* name : {"fastdds-2.6.11", "fastdds-2.14.5", "fastdds-3.2", "fastdds-3.6"}) {
+    const Conformance result = conformance(conversation, profile(name));
+    EXPECT_EQ(result.verdict == Verdict::conforms, name == GetParam().profile) << name;
   }
 }
 
