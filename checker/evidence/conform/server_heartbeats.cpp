@@ -76,9 +76,12 @@ class Heartbeats {
     std::uint32_t given = 0;  // the highest number until now
     for (const auto& [count, one] : by_count_) {
       const Heartbeat& now = *one->heartbeat;
+      // An empty history ends before the next number that there will be.
+      const bool is_empty = now.first == now.announced + std::int64_t{1};
       const bool shrinks =
-          before != nullptr && (now.first < before->first ||
-                                (now.announced > before->announced && now.announced <= given));
+          before != nullptr &&
+          (now.first < before->first ||
+           (!is_empty && now.announced > before->announced && now.announced <= given));
       const bool is_range = now.first >= 1 && now.first <= now.announced + std::int64_t{1};
       const std::int64_t least = one->change        ? *one->change + std::int64_t{1}
                                  : one->gap.empty() ? now.first

@@ -109,6 +109,30 @@ bool hides_somebody(const model::Scenario& scenario, const capture::Conversation
   return told - 1 < there;
 }
 
+/// The last change leaves the history first, then all others: an empty history announces what the
+/// one before it did not.
+TEST(Server, AHistoryMayBecomeEmptyAfterItsLastChangeHasLeft) {
+  model::Scenario scenario;
+  scenario.deployment.participants = {
+      {model::HostId{1}, 0, 0, model::Nanoseconds{0}, model::Nanoseconds{230 * ms}},
+      {model::HostId{2}, 3, 0, model::Nanoseconds{0}, model::Nanoseconds{900 * ms}}};
+  scenario.deployment.loopback_delay = model::Nanoseconds{2 * ms};
+  scenario.dds = of_server("fastdds-server-2.14.5", false);
+  scenario.dds.server.client_sync_period = model::Nanoseconds{160 * ms};
+  scenario.dds.server.server_routine_period = model::Nanoseconds{40 * ms};
+  scenario.wireless.lost_packets = {73, 90};
+  scenario.wireless.fragment_request = model::FragmentRequest::at_admission;
+  scenario.wireless.order = model::ServiceOrder::fifo;
+  scenario.wireless.mtu_payload_bytes = model::Bytes{65'535};
+  scenario.time_limit = model::Nanoseconds{1'800 * ms};
+  model::RunOptions options;
+  options.max_events = 20'000;
+  const Simulated run = simulated(scenario, options);
+  const Conformance result =
+      conformance(run.conversation, scenario.dds, exact_bounds(scenario, run));
+  EXPECT_TRUE(is_explained(result)) << description(result);
+}
+
 void check_random(bool losses) {
   props::ScenarioSpace space;
   space.implementation = model::ImplementationKind::fastdds;
