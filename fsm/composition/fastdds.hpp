@@ -106,7 +106,8 @@ struct Implementation {
   struct OpenBuiltin : Procedure {
     template <class W>
     static void body(W& w) {
-      w.when(w(CrossHost{}) || w(LooksUpTypes{}), [&] { w.perform(control::OpenTopics{}); });
+      w.when(w(CrossHost{}) || w(lookup::LooksUpTypes{}),
+             [&] { w.perform(control::OpenTopics{}); });
     }
   };
 };

@@ -47,7 +47,6 @@ struct Notified : Fact {
 struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
 struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
 
-struct LooksUpTypes : SwitchOf<"type_lookup", "true"> {};
 struct OpensBuiltinFirst : SwitchOf<"match_order", "builtin_first"> {};
 
 struct Data : Packet<owner::relation, Carries, Announces, CarriesHeartbeat> {};

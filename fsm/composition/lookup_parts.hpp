@@ -11,9 +11,17 @@
 
 namespace stormproof::fsm::composition::lookup {
 
-/// Participants ask for what they do not know: they have the endpoints for it (`type_lookup`), and
-/// the endpoints of the deployment have types.
-struct AsksForTypes : Switch {};
+/// Participants have endpoints that ask for types, and answer.
+struct LooksUpTypes : SwitchOf<"type_lookup", "true"> {};
+/// The endpoints of the deployment have types.
+struct HaveTypes : Answer {};
+/// Participants ask for what they do not know.
+struct AsksForTypes : Fact {
+  template <class W>
+  static auto of(W& w) {
+    return w(LooksUpTypes{}) && w(HaveTypes{});
+  }
+};
 struct ExpiryPeriod : DelayOf<"typelookup_heartbeat_period"> {};  ///< τ_L
 
 /// The control-only relation is one of questions or answers.

@@ -231,7 +231,7 @@ struct RegistrationArrives : Rule<Received<Registration>> {
   struct OpenBuiltin : Procedure {
     template <class W>
     static void body(W& w) {
-      w.when(w(CrossHost{}) || w(fastdds::LooksUpTypes{}), [&] { w.perform(OpenBuiltinSides{}); });
+      w.when(w(CrossHost{}) || w(lookup::LooksUpTypes{}), [&] { w.perform(OpenBuiltinSides{}); });
     }
   };
 };

@@ -26,7 +26,7 @@ using Knobs = TypeList<
     comp::EpsilonDenominator, comp::StartupAnnouncements, comp::StartupPeriod,
     comp::AnnouncementPeriod, comp::paper::NackResponseDelay, comp::paper::SuppressionDuration,
     comp::fastdds::NackResponseDelay, comp::fastdds::SuppressionDuration, comp::Immediately,
-    comp::fastdds::LooksUpTypes, comp::fastdds::OpensBuiltinFirst, comp::control::TopicReplyDelay,
+    comp::lookup::LooksUpTypes, comp::fastdds::OpensBuiltinFirst, comp::control::TopicReplyDelay,
     comp::control::BuiltinReplyDelay, comp::lookup::ExpiryPeriod, comp::cyclone::MergesQueued,
     comp::cyclone::HeartbeatInterval, comp::cyclone::HeartbeatIntervalMax,
     comp::cyclone::MatchHeartbeatDelay, comp::cyclone::AckDelay, comp::cyclone::NackDelay,
@@ -58,10 +58,6 @@ std::map<std::string_view, Value> values() {
     all.emplace(fsm::full_name_of<Knob>(), [](const DdsProfile& dds) {
       return static_cast<std::int64_t>(knob_value(Knob{}, dds));
     });
-  });
-  // Whether there are types to ask for is the deployment's, whether anybody can the profile's.
-  all.emplace(fsm::full_name_of<comp::lookup::AsksForTypes>(), [](const DdsProfile& dds) {
-    return static_cast<std::int64_t>(knob_value(comp::fastdds::LooksUpTypes{}, dds));
   });
   return all;
 }

@@ -90,10 +90,6 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] const std::vector<std::uint32_t>& readers_of_control(std::uint32_t writer) const {
     return writers_[lookup_writer(writer)].readers;
   }
-  using DiscoveryBase::knob;
-  [[nodiscard]] bool knob(lookup::AsksForTypes) const {
-    return has_types_ && looks_up_types(run_.scenario.dds);
-  }
   using DiscoveryBase::answer;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;
@@ -106,6 +102,10 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   template <class World>
   [[nodiscard]] bool answer(control::OfTopic, const World& w) const {
     return !control_.is_builtin(w.template number<comp::owner::control_relation>());
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::HaveTypes, const World&) const {
+    return has_types_;
   }
   template <class World>
   [[nodiscard]] bool answer(lookup::OfLookups, const World& w) const {

@@ -11,8 +11,7 @@ constexpr std::uint32_t of_rosout = 1;
 constexpr std::uint32_t of_parameter_events = 2;
 constexpr std::uint32_t of_user_topics = 3;
 constexpr std::uint32_t first_of_services = 4;
-constexpr std::uint32_t services = 12;  // requests and replies
-constexpr std::uint32_t first_own = first_of_services + services;
+constexpr std::uint32_t first_own = first_of_services + service_endpoints;
 
 constexpr std::uint32_t rosout = 1;                 // of the publications
 constexpr std::uint32_t first_service_reply = 2;    // the same
@@ -25,7 +24,7 @@ constexpr std::uint32_t not_listed = UINT32_MAX;
 std::uint32_t place_of(Stream s, std::uint32_t d, std::uint32_t user_publications) {
   const bool publishes = s == Stream::pub;
   const std::uint32_t defaults = publishes ? default_publications : default_subscriptions;
-  if (d >= defaults) return services + (publishes ? 0 : user_publications) + d - defaults;
+  if (d >= defaults) return service_endpoints + (publishes ? 0 : user_publications) + d - defaults;
   if (d + 1 == defaults || d < (publishes ? first_service_reply : first_service_request)) {
     return not_listed;
   }
@@ -42,7 +41,7 @@ Types::Types(const Deployment& deployment)
 std::uint32_t Types::of(std::uint32_t participant, Stream s, std::uint32_t d) const {
   const std::uint32_t place = place_of(s, d, user_publications_[participant]);
   if (place < unknown_) return first_own + unknown_ * participant + place;
-  if (place < services) return first_of_services + place;
+  if (place < service_endpoints) return first_of_services + place;
   if (place != not_listed) return of_user_topics;
   if (d == 0) return of_discovery_info;
   return s == Stream::pub && d == rosout ? of_rosout : of_parameter_events;

@@ -13,11 +13,13 @@
 
 namespace stormproof::model::fastdds {
 
+/// Endpoints of services that every node has: requests and replies.
+inline constexpr std::uint32_t service_endpoints = 12;
+
 /// How many endpoints of the participant can have a type of their own: those of services that every
 /// node has, and user endpoints.
 [[nodiscard]] constexpr std::uint64_t endpoints_with_own_types(const Participant& participant) {
-  constexpr std::uint64_t services = 12;
-  return services + participant.publications + participant.subscriptions;
+  return std::uint64_t{service_endpoints} + participant.publications + participant.subscriptions;
 }
 
 class Types {

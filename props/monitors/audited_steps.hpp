@@ -21,9 +21,9 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
   static constexpr bool has_topics = has_part<typename Of::Composition, control::ControlWriterSide>;
 
  public:
-  using NotFollowed = fsm::TypeList<lookup::OfLookups, lookup::KnowsType, lookup::SomebodyWaits,
-                                    lookup::LookupOfDescriptor, lookup::SentLookup,
-                                    lookup::SentStage, lookup::IsAddressee>;
+  using NotFollowed = fsm::TypeList<lookup::HaveTypes, lookup::OfLookups, lookup::KnowsType,
+                                    lookup::SomebodyWaits, lookup::LookupOfDescriptor,
+                                    lookup::SentLookup, lookup::SentStage, lookup::IsAddressee>;
   template <comp::Owner owner>
   using World = typename Packets::template World<owner>;
   using typename Packets::Composition;
@@ -84,8 +84,6 @@ class AuditedSteps : public AuditedPackets<Self, Base, Of> {
     return !topics_->is_liveliness(w.template number<comp::owner::control_relation>());
   }
   // What asks for types: runs in which somebody does are not followed (props/applicability.cpp).
-  using Packets::knob;
-  [[nodiscard]] static bool knob(lookup::AsksForTypes) { return false; }
   template <class Tag, class W>
   requires(model::detail::is_listed<Tag>(NotFollowed{}))
       [[nodiscard]] auto answer(Tag, const W&) const {

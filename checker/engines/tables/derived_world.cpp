@@ -26,9 +26,7 @@ DerivedWorld::Value DerivedWorld::knob(const Thing& it) {
     return is_truth ? Bool{number != 0}.expr() : Int{number}.expr();
   };
   // That of a deployment is no knob of the profile.
-  if (!model::knob_value(it, derived_->dds)) {
-    return is_truth ? Value{unknown()} : Value{Int{derivation().unknown_count()}};
-  }
+  if (!model::knob_value(it, derived_->dds)) return Int{derivation().unknown_count()};
   auto found = derived_->knobs.find(it.full_name);
   if (derived_->knob || found == derived_->knobs.end()) {
     const Expr made =

@@ -55,7 +55,7 @@ class Excluded {
       case Op::let:
         return truth(term.a);
       case Op::read:
-        return toggle(program_.things[term.tag]);
+        return of_thing(program_.things[term.tag]);
       case Op::negation: {
         const Truth a = truth(term.a);
         return a ? Truth{!*a} : a;
@@ -75,7 +75,9 @@ class Excluded {
     if (a == decisive || b == decisive) return decisive;
     return a && b ? Truth{!decisive} : std::nullopt;
   }
-  [[nodiscard]] Truth toggle(const fsm::program::Thing& thing) const {
+  /// A fact by its definition.
+  [[nodiscard]] Truth of_thing(const fsm::program::Thing& thing) const {
+    if (thing.kind == fsm::program::Thing::Kind::fact) return truth(thing.definition);
     if (thing.kind != fsm::program::Thing::Kind::toggle) return std::nullopt;
     const auto value = model::knob_value(thing, dds_);
     return value ? Truth{*value != 0} : std::nullopt;

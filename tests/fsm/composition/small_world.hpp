@@ -17,7 +17,6 @@
 #include "fsm/composition/first_value.hpp"
 #include "fsm/flyweight.hpp"
 #include "model/engine/composition_knobs.hpp"
-#include "model/fastdds/endpoints.hpp"
 
 namespace stormproof::fsm::composition {
 
@@ -111,8 +110,6 @@ class SmallWorld {
     if constexpr (std::derived_from<Tag, Switch> || std::derived_from<Tag, Delay>) {
       if constexpr (model::is_knob<Tag>) {
         return model::knob_value(knob, *dds_);
-      } else if constexpr (std::is_same_v<Tag, lookup::AsksForTypes>) {
-        return model::fastdds::looks_up_types(*dds_);
       } else {
         return std::int64_t{draw(4)};  // of a deployment
       }

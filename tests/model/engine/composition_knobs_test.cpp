@@ -71,7 +71,6 @@ TEST(CompositionKnobs, WhatNoProfileHasIsFixedOrTheDeployments) {
   EXPECT_EQ(knob_value(comp::control::TopicReplyDelay{}, {}), 5'000'000);
   EXPECT_TRUE(is_knob<comp::AcceptsUnmatched>);
   EXPECT_FALSE(is_knob<comp::cyclone::SendTime>);
-  EXPECT_FALSE(is_knob<comp::lookup::AsksForTypes>);
 }
 
 }  // namespace composition_knobs_test
