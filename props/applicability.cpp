@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "model/composition_of.hpp"
-#include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
 
@@ -136,20 +135,6 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
          "(sender: stalls) serves none as long as its packets wait for room, however long that is";
 }
 
-/// Rules of later versions of Fast DDS that nobody executes beside a run.
-std::string_view why_not_followed(const Property& property, const model::Scenario& scenario) {
-  if (property.id != "composition.followed") return {};
-  if (scenario.deployment.types) {
-    return "what is executed beside a run knows every type (deployment.types)";
-  }
-  const model::DdsProfile& dds = scenario.dds;
-  if (model::fastdds::looks_up_types(dds) || dds.version.max_data_per_message > 0) {
-    return "what is executed beside a run has no endpoints that look up types (dds.type_lookup) "
-           "and fills messages as far as they go (dds.max_data_per_message)";
-  }
-  return {};
-}
-
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living_fastdds(scenario);
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
@@ -159,8 +144,6 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";
   }
-  why = why_not_followed(property, scenario);
-  if (!why.empty()) return why;
   why = why_not_needed(property.needs, scenario);
   return why.empty() ? why_not_true(property.counts_on, scenario) : why;
 }

@@ -19,7 +19,7 @@
 //   is_due(timer, event), owner_of(timer, event)     if its timers are events of a queue
 //   emit(packet, world, sayings)         sends it
 //   perform(step, world, …)              an opaque step
-//   watcher()                            who watches the effects, or nobody
+//   watcher()                            if somebody can watch the effects: who does, or nobody
 //   readers(w), readers_by_number(w)     the open relations of a writer
 //   writer_layout(), samples_of(w)       if participants have other writers than one for each
 //                                        stream: how they are numbered, how much each has
@@ -573,11 +573,13 @@ void run_rule(Host& host, std::uint32_t subject, const typename Host::Packet* pa
               std::uint32_t descriptor = 0) {
   using Rule = comp::RuleFor<typename Host::Composition, Trigger>;
   RunningWorld<Host, Rule::owner> world{host, subject, packet, descriptor};
-  if (comp::Watcher* watcher = host.watcher(); watcher != nullptr) [[unlikely]] {
-    comp::WatchedWorld watched{world, *watcher, comp::Trail{fsm::name_of<Rule>()}};
-    Rule::run(watched);
-    watcher->go_on();
-    return;
+  if constexpr (requires { host.watcher(); }) {
+    if (comp::Watcher* watcher = host.watcher(); watcher != nullptr) [[unlikely]] {
+      comp::WatchedWorld watched{world, *watcher, comp::Trail{fsm::name_of<Rule>()}};
+      Rule::run(watched);
+      watcher->go_on();
+      return;
+    }
   }
   Rule::run(world);
 }

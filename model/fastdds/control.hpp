@@ -37,6 +37,10 @@ class ControlRelations {
   /// The relation of a pair on a topic, if the source publishes it and the destination subscribes
   /// to it; otherwise `topic::none`.
   [[nodiscard]] std::uint32_t find(std::uint32_t pair, std::uint32_t topic) const;
+  /// Of one that is no lookup.
+  [[nodiscard]] std::uint32_t topic_of(std::uint32_t relation) const {
+    return relation - first_relation_[pairs_[relation]];
+  }
   /// It is one of questions or answers.
   [[nodiscard]] bool is_lookup(std::uint32_t relation) const {
     return relation >= first_lookup(pairs_[relation]);

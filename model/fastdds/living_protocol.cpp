@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "model/engine/endpoint_creations.hpp"
+
 namespace stormproof::model::fastdds {
 
 bool LivingProtocol::was_there_before(std::uint32_t i) const {
@@ -133,7 +135,7 @@ void LivingProtocol::handle(const Event& event) {
     return;
   }
   run_due(*this, event);
-  if (event.kind == EventKind::participant_start) schedule_creations(event.subject, run_.now);
+  if (event.kind == EventKind::participant_start) schedule_creations(run_, event.subject, run_.now);
 }
 
 void LivingProtocol::received(const Packet& packet, std::uint32_t receiver) {

@@ -1,8 +1,11 @@
 // What participants know of types, what waits for them, and the samples by which they ask
 // (fsm/composition/lookups.hpp): queued by who sends them, and kept by each writer in the order of
-// their numbers. Who says how samples become messages is `Protocol` (model/fastdds/lookups.cpp).
+// their numbers. And what rules ask of that and of control-only relations, and have done with it:
+// stated once for whoever executes the rules, the simulator and the audit of its runs. Who says how
+// samples become messages is `Protocol` (model/fastdds/lookups.cpp).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <deque>
 #include <map>
@@ -11,11 +14,16 @@
 #include <utility>
 #include <vector>
 
-#include "model/engine/topology.hpp"
-#include "model/fastdds/endpoints.hpp"
+#include "fsm/composition/fastdds.hpp"
+#include "model/engine/running_world.hpp"
+#include "model/fastdds/control.hpp"
 #include "model/fastdds/types.hpp"
 
 namespace stormproof::model::fastdds {
+
+namespace rules = fsm::composition::fastdds;
+namespace control = fsm::composition::control;
+namespace lookup = fsm::composition::lookup;
 
 /// One addressee takes a sample up, whoever receives it.
 struct Sample {
@@ -82,6 +90,132 @@ class Lookups {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Waiting>> waiting_;
   std::vector<std::deque<Sample>> queues_;      // by participant
   std::vector<std::vector<Sample>> histories_;  // by writer
+};
+
+/// A layer of such a host.
+template <class Host>
+class ControlSteps {
+  using Number = std::uint32_t;
+
+ public:
+  explicit ControlSteps(const RunState& run)
+      : control_{run},
+        has_types_{run.scenario.deployment.types.has_value()},
+        lookups_{run.scenario.deployment, run.topology} {}
+
+  [[nodiscard]] Number pair_of_control(Number relation) const { return control_.pair_of(relation); }
+  [[nodiscard]] Number writer_of_control(Number relation) const {
+    return control_.writer_of(relation);
+  }
+  [[nodiscard]] static Number participant_of_control(Number writer) {
+    return writer / control_writers;
+  }
+
+  // What only the host knows.
+  template <class World>
+  [[nodiscard]] bool answer(control::OfTopic, const World& w) const {
+    return !control_.is_builtin(w.template number<comp::owner::control_relation>());
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::HaveTypes, const World&) const {
+    return has_types_;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::OfLookups, const World& w) const {
+    return control_.is_lookup(w.template number<comp::owner::control_relation>());
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::KnowsType, const World& w) const {
+    const auto relation = w.template number<comp::owner::relation>();
+    const Number j = host().topology().pair(relation / 2).destination;
+    return lookups_.knows(j, lookups_.looked_up(relation, w.descriptor()),
+                          {host().template first<rules::Exists>(2 * j),
+                           host().template first<rules::Exists>(2 * j + 1)});
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::SomebodyWaits, const World& w) {
+    return !lookups_.waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
+                .empty();
+  }
+  template <class World>
+  [[nodiscard]] std::int64_t answer(lookup::LookupOfDescriptor, const World& w) const {
+    return lookups_.looked_up(w.template number<comp::owner::relation>(), w.descriptor());
+  }
+  void assign(rules::WaitsForType, Number relation, Number d, bool waits) {
+    auto& list = lookups_.waiting_with(relation, d);
+    waits ? list.push_back({relation, d})
+          : static_cast<void>(std::erase(list, Lookups::Waiting{relation, d}));
+  }
+
+  // Packets of these relations.
+  [[nodiscard]] static std::int64_t said(lookup::SampleCount, const Packet& packet) {
+    return packet.last_sample();
+  }
+  [[nodiscard]] static std::int64_t said(lookup::SampleNumber, const Packet& packet) {
+    return packet.last_sample();
+  }
+  [[nodiscard]] std::int64_t said(lookup::Stage, const Packet& packet) const {
+    return sample_in(packet).stage;
+  }
+  [[nodiscard]] std::int64_t said(lookup::LookedUp, const Packet& packet) const {
+    return sample_in(packet).looked_up;
+  }
+  [[nodiscard]] bool said(lookup::IsForReader, const Packet& packet) const {
+    return sample_in(packet).addressee == host().topology().pair(packet.pair).destination;
+  }
+  /// Calls `take(tag, packet)` for one sample after the other, and then for the HEARTBEAT.
+  template <class Take>
+  static void take_samples(const Packet& packet, Take&& take) {
+    Packet sample;
+    sample.become(packet);
+    const Number last = packet.last_sample();
+    for (Number number = last - std::min(last, packet.samples()) + 1; number <= last; ++number) {
+      sample.set_samples(1, number);
+      take(lookup::LookupSample{}, sample);
+    }
+    if (packet.heartbeats > 0) take(control::UserHeartbeat{}, packet);
+  }
+
+  // Opaque steps.
+  template <class World>
+  void perform(lookup::QueueSample, World& w, std::int64_t stage, std::int64_t looked_up) {
+    const Pair& pair = host().topology().pair(w.template number<comp::owner::pair>());
+    lookups_.queue(pair.source,
+                   {pair.destination, static_cast<Number>(looked_up), static_cast<Number>(stage)});
+    ++host().template at<lookup::SamplesQueued>(pair.source);
+  }
+  template <class World>
+  void perform(lookup::LearnType, World& w) {
+    const Number looked_up = sample_in(w.packet()).looked_up;
+    const Number j = host().topology().pair(w.template number<comp::owner::pair>()).destination;
+    lookups_.learn(j, looked_up);
+    for (const Number s : {0U, 1U}) {
+      const std::vector<Lookups::Waiting> list = lookups_.waiting(j, looked_up / 2 * 2 + s);
+      for (const auto& [relation, d] : list) {
+        run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
+      }
+    }
+  }
+
+ protected:
+  /// The oldest sample of the queue of participant i is sent, to all readers of its writer.
+  template <class World>
+  void send_sample(World& w, Number i) {
+    --host().template at<lookup::SamplesQueued>(i);
+    run_rule<comp::Happens<lookup::SampleLeaves>>(w.host(), lookups_.take(i));
+  }
+
+  const ControlRelations control_;
+  const bool has_types_;
+  Lookups lookups_;
+
+ private:
+  [[nodiscard]] Host& host() { return static_cast<Host&>(*this); }
+  [[nodiscard]] const Host& host() const { return static_cast<const Host&>(*this); }
+  /// The sample that is received, in a packet that has no other.
+  [[nodiscard]] const Sample& sample_in(const Packet& packet) const {
+    return lookups_.sample(control_.writer_of(packet.detail), packet.last_sample());
+  }
 };
 
 }  // namespace stormproof::model::fastdds

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "model/engine/endpoint_creations.hpp"
 #include "model/fastdds/peer_ports.hpp"
 #include "model/implementations.hpp"
 
@@ -11,12 +12,10 @@ namespace stormproof::model::fastdds {
 
 Protocol::Protocol(RunState& run, Network& network)
     : Stored{run, network},
+      ControlSteps{run},
       sizes_{sizes_of(run.scenario.dds)},
       statistics_bytes_{run.scenario.dds.version.statistics_bytes.count()},
       dds_{deployed_profile(run.scenario)},
-      control_{run},
-      has_types_{run.scenario.deployment.types.has_value()},
-      lookups_{run.scenario.deployment, run.topology},
       first_lookup_writer_{2 * run.topology.participant_count()},
       participants_(run.topology.participant_count()),
       writers_((2 + control_writers) * std::size_t{run.topology.participant_count()}),
@@ -66,18 +65,7 @@ void Protocol::count(const Packet& packet) {
 void Protocol::start() {
   for (std::uint32_t i = 0; i < run_.scenario.deployment.size(); ++i) {
     begin_announcing(i);
-    schedule_creations(i, run_.scenario.deployment.participants[i].start);
-  }
-}
-
-void Protocol::schedule_creations(std::uint32_t i, Nanoseconds start) {
-  const model::Participant& participant = run_.scenario.deployment.participants[i];
-  const std::int64_t span = (participant.endpoints_done - participant.start).count();
-  const std::int64_t endpoints = run_.topology.descriptor_count(i, Stream::pub) +
-                                 run_.topology.descriptor_count(i, Stream::sub);
-  for (std::int64_t k = 0; k < endpoints; ++k) {
-    run_.schedule(start + Nanoseconds{span * (k + 1) / endpoints}, EventKind::endpoint_creation, i,
-                  static_cast<std::uint32_t>(k));
+    schedule_creations(run_, i, run_.scenario.deployment.participants[i].start);
   }
 }
 
@@ -90,12 +78,10 @@ void Protocol::handle(const Event& event) {
 }
 
 Endpoint Protocol::created_by(const Event& event) {
-  const std::uint32_t user_publications =
-      run_.topology.descriptor_count(event.subject, Stream::pub) - default_publications;
   // A creation that was held can meet the next one; the application creates them in their order.
   const std::uint32_t k =
       network_.sender_stalls() ? participants_[event.subject].endpoints++ : event.detail;
-  return creation_order(k, user_publications);
+  return creation_of(run_.topology, event.subject, k);
 }
 
 std::vector<std::uint32_t> Protocol::receivers(const Packet& packet) const {

@@ -16,17 +16,13 @@
 
 #include "fsm/composition/fastdds.hpp"
 #include "model/engine/discovery_base.hpp"
+#include "model/engine/packet_tags.hpp"
 #include "model/engine/relation_bits.hpp"
 #include "model/engine/running_world.hpp"
-#include "model/fastdds/control.hpp"
 #include "model/fastdds/lookups.hpp"
 #include "model/fastdds/message.hpp"
 
 namespace stormproof::model::fastdds {
-
-namespace rules = fsm::composition::fastdds;
-namespace control = fsm::composition::control;
-namespace lookup = fsm::composition::lookup;
 
 /// How many readers the writer had matched before, if it forgets nobody.
 struct Rank : comp::Number<comp::owner::relation> {};
@@ -55,7 +51,8 @@ struct Columns : PlainColumns {
 using Things = comp::Joined<ThingsBeside<rules::FastDds, DiscoveryBase>, fsm::TypeList<Rank>>;
 
 class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
-                               fsm::TypeList<rules::WriterOpen, comp::X, lookup::GetsSamples>> {
+                               fsm::TypeList<rules::WriterOpen, comp::X, lookup::GetsSamples>>,
+                 public ControlSteps<Protocol> {
  public:
   using Composition = rules::FastDds;
 
@@ -78,18 +75,11 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   /// Of an ACKNACK: what is below its base, then what is listed.
   static constexpr auto lane_order(rules::C) { return std::array{false, true}; }
 
-  [[nodiscard]] std::uint32_t pair_of_control(std::uint32_t relation) const {
-    return control_.pair_of(relation);
-  }
-  [[nodiscard]] std::uint32_t writer_of_control(std::uint32_t relation) const {
-    return control_.writer_of(relation);
-  }
-  [[nodiscard]] static std::uint32_t participant_of_control(std::uint32_t writer) {
-    return writer / control_writers;
-  }
   [[nodiscard]] const std::vector<std::uint32_t>& readers_of_control(std::uint32_t writer) const {
     return writers_[lookup_writer(writer)].readers;
   }
+  using ControlSteps::answer;
+  using ControlSteps::perform;
   using DiscoveryBase::answer;
   using DiscoveryBase::emit;
   using DiscoveryBase::fact;
@@ -99,42 +89,10 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] bool answer(rules::CrossHost, const World& w) const {
     return run_.topology.pair(w.template number<comp::owner::pair>()).cross_host;
   }
-  template <class World>
-  [[nodiscard]] bool answer(control::OfTopic, const World& w) const {
-    return !control_.is_builtin(w.template number<comp::owner::control_relation>());
-  }
-  template <class World>
-  [[nodiscard]] bool answer(lookup::HaveTypes, const World&) const {
-    return has_types_;
-  }
-  template <class World>
-  [[nodiscard]] bool answer(lookup::OfLookups, const World& w) const {
-    return control_.is_lookup(w.template number<comp::owner::control_relation>());
-  }
-  template <class World>
-  [[nodiscard]] bool answer(lookup::KnowsType, const World& w) const {
-    const auto relation = w.template number<comp::owner::relation>();
-    const std::uint32_t j = ends(relation).destination;
-    return lookups_.knows(j, lookups_.looked_up(relation, w.descriptor()),
-                          {first<rules::Exists>(2 * j), first<rules::Exists>(2 * j + 1)});
-  }
-  template <class World>
-  [[nodiscard]] bool answer(lookup::SomebodyWaits, const World& w) {
-    return !lookups_.waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
-                .empty();
-  }
-  template <class World>
-  [[nodiscard]] std::int64_t answer(lookup::LookupOfDescriptor, const World& w) const {
-    return lookups_.looked_up(w.template number<comp::owner::relation>(), w.descriptor());
-  }
   /// The relation's reader has these now. Another way to discover does it in its own way.
   virtual void take_descriptors(std::uint32_t relation, const DescriptorSet& received);
+  using ControlSteps::assign;
   using Stored::assign;
-  void assign(rules::WaitsForType, std::uint32_t relation, std::uint32_t d, bool waits) {
-    auto& list = lookups_.waiting_with(relation, d);
-    waits ? list.push_back({relation, d})
-          : static_cast<void>(std::erase(list, Lookups::Waiting{relation, d}));
-  }
   void changed(lookup::GetsSamples, std::uint32_t relation, bool) {
     writers_[lookup_writer(control_.writer_of(relation))].readers.push_back(relation);
   }
@@ -162,22 +120,8 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, std::uint32_t k) const {
     return bits_below(packet.detail, k);
   }
+  using ControlSteps::said;
   using DiscoveryBase::said;
-  [[nodiscard]] static std::int64_t said(lookup::SampleCount, const Packet& packet) {
-    return packet.last_sample();
-  }
-  [[nodiscard]] static std::int64_t said(lookup::SampleNumber, const Packet& packet) {
-    return packet.last_sample();
-  }
-  [[nodiscard]] std::int64_t said(lookup::Stage, const Packet& packet) const {
-    return sample_in(packet).stage;
-  }
-  [[nodiscard]] std::int64_t said(lookup::LookedUp, const Packet& packet) const {
-    return sample_in(packet).looked_up;
-  }
-  [[nodiscard]] bool said(lookup::IsForReader, const Packet& packet) const {
-    return sample_in(packet).addressee == run_.topology.pair(packet.pair).destination;
-  }
   template <class World, class Sayings>
   void emit(rules::Heartbeat, World& w, const Sayings& sayings) {
     send_heartbeat(w.template number<comp::owner::relation>(),
@@ -263,32 +207,11 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   }
   // What asks for types, and answers.
   template <class World>
-  void perform(lookup::QueueSample, World& w, std::int64_t stage, std::int64_t looked_up) {
-    const Pair& pair = run_.topology.pair(w.template number<comp::owner::pair>());
-    lookups_.queue(pair.source, {pair.destination, static_cast<std::uint32_t>(looked_up),
-                                 static_cast<std::uint32_t>(stage)});
-    ++at<lookup::SamplesQueued>(pair.source);
-  }
-  template <class World>
-  void perform(lookup::LearnType, World& w) {
-    const std::uint32_t looked_up = sample_in(w.packet()).looked_up;
-    const std::uint32_t j = run_.topology.pair(w.template number<comp::owner::pair>()).destination;
-    lookups_.learn(j, looked_up);
-    for (const std::uint32_t s : {0U, 1U}) {
-      const std::vector<Lookups::Waiting> list = lookups_.waiting(j, looked_up / 2 * 2 + s);
-      for (const auto& [relation, d] : list) {
-        run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
-      }
-    }
-  }
-  template <class World>
   void perform(lookup::SendSamples, World& w) {
     const auto i = w.template number<comp::owner::participant>();
     go_on(i);
     while (lookups_.has_queued(i)) {
-      --at<lookup::SamplesQueued>(i);
-      const std::uint32_t writer = lookups_.take(i);
-      run_rule<comp::Happens<lookup::SampleLeaves>>(w.host(), writer);
+      send_sample(w, i);
       const bool is_done = !lookups_.has_queued(i) && participants_[i].queue.empty();
       if (is_done || !network_.stalls(i)) continue;
       participants_[i].is_suspended = true;
@@ -359,8 +282,6 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   void open_notified(std::uint32_t pair, Stream s, std::uint32_t d);
 
   void refill(std::uint32_t writer) override;
-  /// Participant i creates its endpoints one after the other from `start` on.
-  void schedule_creations(std::uint32_t i, Nanoseconds start);
   /// The endpoint of a creation.
   [[nodiscard]] Endpoint created_by(const Event& event);
   /// Creations and receptions by the rules of the host, which is this.
@@ -387,9 +308,6 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   const VersionSizes& sizes_;
   const std::int64_t statistics_bytes_;
   const DdsProfile dds_;  // with what descriptors say of types
-  ControlRelations control_;
-  const bool has_types_;
-  Lookups lookups_;
   const std::uint32_t first_lookup_writer_;
   std::vector<Participant> participants_;
   /// 2 · participant + stream, then, from `first_lookup_writer_` on, those of questions, answers
@@ -458,12 +376,6 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] std::uint32_t samples_sent(std::uint32_t w) const {
     return static_cast<std::uint32_t>(at<lookup::SamplesSent>(w - first_lookup_writer_));
   }
-  /// The sample that is received, in a packet that has no other.
-  [[nodiscard]] const Sample& sample_in(const Packet& packet) const {
-    return lookups_.sample(control_.writer_of(packet.detail), packet.last_sample());
-  }
-  template <class Host>
-  static void take_samples(Host& host, const Packet& packet);
 
   [[nodiscard]] bool is_created(std::uint32_t i, Stream s, std::uint32_t d) const {
     return d < first<rules::Exists>(static_cast<std::uint32_t>(2 * i + index_of(s)));
@@ -489,56 +401,23 @@ void Protocol::create(Host& host, const Event& event) {
       host, 2 * event.subject + static_cast<std::uint32_t>(index_of(stream)), nullptr, d);
 }
 
-/// One after the other, and then the HEARTBEAT.
-template <class Host>
-void Protocol::take_samples(Host& host, const Packet& packet) {
-  Packet sample;
-  sample.become(packet);
-  const std::uint32_t last = packet.last_sample();
-  for (std::uint32_t number = last - std::min(last, packet.samples()) + 1; number <= last;
-       ++number) {
-    sample.set_samples(1, number);
-    run_rule<comp::Received<lookup::LookupSample>>(host, packet.detail, &sample);
-  }
-  if (packet.heartbeats == 0) return;
-  run_rule<comp::Received<control::UserHeartbeat>>(host, packet.detail, &packet);
-}
-
 template <class Host>
 void Protocol::take_in(Host& host, const Packet& packet, std::uint32_t receiver) {
   const Topology& topology = host.topology();
   if (host.run_.now < topology.start(receiver)) return;
-  const std::uint32_t relation = packet.relation();
-  switch (packet.kind) {
-    case PacketKind::spdp_multicast:
-      run_rule<comp::Received<comp::SpdpMulticast>>(host,
-                                                    topology.pair_between(packet.pair, receiver));
-      break;
-    case PacketKind::spdp_unicast:
-      run_rule<comp::Received<comp::SpdpUnicast>>(host, packet.pair);
-      break;
-    case PacketKind::data:
-      host.count_copies(host.bits(rules::C{}), packet);
-      run_rule<comp::Received<rules::Data>>(host, relation, &packet);
-      break;
-    case PacketKind::heartbeat:
-      run_rule<comp::Received<rules::Heartbeat>>(host, relation, &packet);
-      break;
-    case PacketKind::acknack:
-      run_rule<comp::Received<rules::AckNack>>(host, relation, &packet);
-      break;
-    case PacketKind::user_heartbeat:
-      run_rule<comp::Received<control::UserHeartbeat>>(host, packet.detail, &packet);
-      break;
-    case PacketKind::user_acknack:
-      run_rule<comp::Received<control::UserAckNack>>(host, packet.detail, &packet);
-      break;
-    case PacketKind::lookup:
-      take_samples(host, packet);
-      break;
-    default:
-      break;  // sent by others only
-  }
+  comp::for_each_type(typename Host::Composition::Packets{}, [&]<class P>() {
+    if (packet.kind != packet_kind_of<P>) return;
+    if constexpr (std::is_same_v<P, comp::SpdpMulticast>) {
+      run_rule<comp::Received<P>>(host, topology.pair_between(packet.pair, receiver), &packet);
+    } else if constexpr (std::is_same_v<P, lookup::LookupSample>) {
+      take_samples(packet, [&]<class Part>(Part, const Packet& part) {
+        run_rule<comp::Received<Part>>(host, packet.detail, &part);
+      });
+    } else {
+      if (std::is_same_v<P, rules::Data>) host.count_copies(host.bits(rules::C{}), packet);
+      run_rule<comp::Received<P>>(host, number_of<P>(packet), &packet);
+    }
+  });
 }
 
 }  // namespace stormproof::model::fastdds

@@ -36,7 +36,7 @@ void ServerProtocol::send_registration(PacketKind kind, Number pair, bool initia
 void ServerProtocol::send_acknack(Number relation, bool initial) {
   const Number relay = relation % relay::count;
   const bool of_announcements = relay == relay::announcements;
-  Relayed acknack = asks(relation, initial);
+  Relayed acknack = contents(server::RelayedAckNack{}, relation, initial);
   std::int64_t bytes = acknack_bytes;
   if (!acknack.numbers.empty()) {
     const std::int64_t span = acknack.numbers.back() - acknack.numbers.front() + 1;

@@ -61,31 +61,7 @@ void ServerProtocol::count(const Packet& packet) {
 
 void ServerProtocol::received(const Packet& packet, Number receiver) {
   if (run_.now < run_.topology.start(receiver)) return;
-  const Number relation = relay::count * packet.pair + packet.detail;
-  switch (packet.kind) {
-    case PacketKind::registration:
-      run_rule<comp::Received<server::Registration>>(*this, packet.pair, &packet);
-      break;
-    case PacketKind::registration_heartbeat:
-      run_rule<comp::Received<server::RegistrationHeartbeat>>(*this, packet.pair, &packet);
-      break;
-    case PacketKind::registration_acknack:
-      run_rule<comp::Received<server::RegistrationAckNack>>(*this, packet.pair, &packet);
-      break;
-    case PacketKind::relayed_acknack:
-      run_rule<comp::Received<server::RelayedAckNack>>(*this, relation, &packet);
-      break;
-    case PacketKind::relayed:
-      if (packet.relayed->has_data)
-        run_rule<comp::Received<server::RelayedData>>(*this, relation, &packet);
-      else if (!packet.relayed->numbers.empty())
-        run_rule<comp::Received<server::Gap>>(*this, relation, &packet);
-      else
-        run_rule<comp::Received<server::RelayHeartbeat>>(*this, relation, &packet);
-      break;
-    default:
-      Protocol::received(packet, receiver);
-  }
+  if (!ServerSteps::take_in(packet)) Protocol::received(packet, receiver);
 }
 
 /// Whether discovery needs that the pair's destination learns the descriptor: it has the other side

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fsm/composition/server.hpp"
+#include "model/engine/packet_tags.hpp"
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/fastdds/server_relays.hpp"
@@ -23,6 +24,9 @@ struct ServerColumns : ServerNumbers {
   static way::Capped column(server::RegistrationLastDelay);
   static way::Capped column(server::LearnerLastDelay);
 };
+/// A packet between the server and a client.
+template <class P>
+concept OfServer = model::detail::is_listed<P>(server::FastDdsServer::Packets{});
 using ServerThings = ThingsBeside<server::FastDdsServer, Protocol>;
 
 class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThings, ServerColumns,
@@ -50,9 +54,9 @@ class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThing
   using ServerSteps::readers;
 
   // What steps ask of it.
-  template <class Occasion>
-  void happens(Number n) {
-    run_rule<comp::Happens<Occasion>>(*this, n);
+  template <class Trigger>
+  void run(Number n, const Packet* packet = nullptr) {
+    run_rule<Trigger>(*this, n, packet);
   }
   template <class Occasion>
   void runs_for_clients(Number relation) {
@@ -63,41 +67,17 @@ class ServerProtocol final : public Stored<ServerProtocol, Protocol, ServerThing
 
   // Packets.
   using Protocol::emit;
-  template <class World, class Sayings>
-  void emit(server::Registration, World& w, const Sayings&) {
-    send_registration(PacketKind::registration, w.template number<comp::owner::pair>(), false);
-  }
-  template <class World, class Sayings>
-  void emit(server::RegistrationHeartbeat, World& w, const Sayings&) {
-    send_registration(PacketKind::registration_heartbeat, w.template number<comp::owner::pair>(),
-                      false);
-  }
-  template <class World, class... Sayings>
-  void emit(server::RegistrationAckNack, World& w, const std::tuple<Sayings...>&) {
-    send_registration(PacketKind::registration_acknack, w.template number<comp::owner::pair>(),
-                      sizeof...(Sayings) > 0);
-  }
-  template <class World, class... Sayings>
-  void emit(server::RelayedData, World& w, const std::tuple<Sayings...>&) {
-    const auto relation = w.template number<comp::owner::relation>();
-    const bool serves = sizeof...(Sayings) > 0;
-    send_relayed(relation, serves ? with_heartbeat(relation, served()) : own_announcement());
-  }
-  template <class World, class Sayings>
-  void emit(server::RelayHeartbeat, World& w, const Sayings&) {
-    const auto relation = w.template number<comp::owner::relation>();
-    send_relayed(relation, with_heartbeat(relation, {}));
-  }
-  template <class World, class... Sayings>
-  void emit(server::Gap, World& w, const std::tuple<Sayings...>&) {
-    const auto relation = w.template number<comp::owner::relation>();
-    Relayed gap = skipped();
-    if (sizeof...(Sayings) > 0) gap = with_heartbeat(relation, std::move(gap));
-    send_relayed(relation, std::move(gap));
-  }
-  template <class World, class... Sayings>
-  void emit(server::RelayedAckNack, World& w, const std::tuple<Sayings...>&) {
-    send_acknack(w.template number<comp::owner::relation>(), sizeof...(Sayings) > 0);
+  template <OfServer P, class World, class... Sayings>
+  void emit(P packet, World& w, const std::tuple<Sayings...>&) {
+    constexpr bool says = sizeof...(Sayings) > 0;
+    if constexpr (P::owner == comp::owner::pair) {
+      send_registration(packet_kind_of<P>, w.template number<P::owner>(), says);
+    } else if constexpr (std::is_same_v<P, server::RelayedAckNack>) {
+      send_acknack(w.template number<P::owner>(), says);
+    } else {
+      const auto relation = w.template number<P::owner>();
+      send_relayed(relation, contents(packet, relation, says));
+    }
   }
 
  private:

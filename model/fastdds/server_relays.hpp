@@ -14,6 +14,31 @@
 namespace stormproof::model::fastdds {
 
 template <class Host>
+bool ServerSteps<Host>::take_in(const Packet& packet) {
+  const Number relation = relay::count * packet.pair + packet.detail;
+  const auto run = [&]<class P>(P, Number n) {
+    host().template run<fsm::composition::Received<P>>(n, &packet);
+    return true;
+  };
+  switch (packet.kind) {
+    case PacketKind::registration:
+      return run(server::Registration{}, packet.pair);
+    case PacketKind::registration_heartbeat:
+      return run(server::RegistrationHeartbeat{}, packet.pair);
+    case PacketKind::registration_acknack:
+      return run(server::RegistrationAckNack{}, packet.pair);
+    case PacketKind::relayed_acknack:
+      return run(server::RelayedAckNack{}, relation);
+    case PacketKind::relayed:
+      if (packet.relayed->has_data) return run(server::RelayedData{}, relation);
+      if (!packet.relayed->numbers.empty()) return run(server::Gap{}, relation);
+      return run(server::RelayHeartbeat{}, relation);
+    default:
+      return false;
+  }
+}
+
+template <class Host>
 template <class World>
 bool ServerSteps<Host>::answer(server::LacksSomething, const World& w) const {
   const RelayWriter& writer = relays_[relay_at(w)];
@@ -131,7 +156,8 @@ void ServerSteps<Host>::insert(Number relay, Item item) {
   }
   if (!wanted) return;
   queues_.add({relay, item});
-  host().template happens<server::Inserted>(relay::count * server_id() + relay);
+  host().template run<fsm::composition::Happens<server::Inserted>>(relay::count * server_id() +
+                                                                   relay);
 }
 
 /// Returns the number of packets; changes that nobody wants any more take none.
@@ -152,9 +178,10 @@ std::int64_t ServerSteps<Host>::deliver(SendingQueues::Entry entry) {
   for (const Number relation : wanting) packets += skip_before(relation, number) ? 1 : 0;
   for (const Number relation : wanting) {
     step<fsm::change_for_reader::Serialized>(about(relation).list.at(number), relation);
-    host().template happens<server::Served>(relation);
+    host().template run<fsm::composition::Happens<server::Served>>(relation);
   }
-  host().template happens<server::Delivered>(relay::count * server_id() + entry.relay);
+  host().template run<fsm::composition::Happens<server::Delivered>>(relay::count * server_id() +
+                                                                    entry.relay);
   return packets;
 }
 
@@ -169,7 +196,7 @@ bool ServerSteps<Host>::skip_before(Number relation, std::int64_t number) {
   const std::int64_t first = relays_[relation % relay::count].first();
   for (std::int64_t k = std::max(before + 1, first); k < number; ++k) irrelevant_.push_back(k);
   if (irrelevant_.empty()) return false;
-  host().template happens<server::Skipped>(relation);
+  host().template run<fsm::composition::Happens<server::Skipped>>(relation);
   return true;
 }
 

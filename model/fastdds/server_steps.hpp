@@ -2,7 +2,7 @@
 // about: its database, the lists of its writers, the queues of the thread that sends, and what
 // clients have heard of it. It is stated once for whoever executes the rules: the simulator, and
 // the audit of its runs; both include server_relays.hpp, which has the bodies. `Host` says
-//   happens<Occasion>(n)   the rule of the occasion runs, for owner n
+//   run<Trigger>(n, packet)   the rule of a trigger, for owner n
 //   learn(client, relayed) a client learns what it has been sent
 //   runs_for_clients<Occasion>(relation), open_builtin(pair)   the rules of any participant
 #pragma once
@@ -14,6 +14,7 @@
 
 #include "fsm/composition/server.hpp"
 #include "model/engine/driver.hpp"
+#include "model/engine/packet.hpp"
 #include "model/engine/writer_layout.hpp"
 #include "model/fastdds/database.hpp"
 #include "model/fastdds/relay.hpp"
@@ -47,6 +48,9 @@ class ServerSteps {
     writer.readers.push_back(r);
     about(r).low = writer.first() - 1;
   }
+
+  /// Runs the rule of a packet between the server and a client; false if it is another one.
+  bool take_in(const Packet& packet);
 
   // What only the host knows.
   template <class World>
@@ -169,23 +173,21 @@ class ServerSteps {
 
   // What packets carry.
   /// It asks for all that is missing of what is announced; an initial one claims nothing.
-  [[nodiscard]] Relayed asks(Number relation, bool initial);
-  /// What the sending thread serves.
-  [[nodiscard]] Relayed served() const { return data_of(served_); }
-  [[nodiscard]] Relayed own_announcement() const {
+  [[nodiscard]] Relayed contents(server::RelayedAckNack, Number relation, bool initial) {
+    return asks(relation, initial);
+  }
+  /// What the sending thread serves; otherwise it is the server's own announcement.
+  [[nodiscard]] Relayed contents(server::RelayedData, Number relation, bool serves) const {
+    if (serves) return with_heartbeat(relation, data_of(served_));
     return data_of({relay::announcements, database_.announcement(server_id())});
   }
-  [[nodiscard]] Relayed skipped() const {
+  [[nodiscard]] Relayed contents(server::RelayHeartbeat, Number relation, bool) const {
+    return with_heartbeat(relation, {});
+  }
+  [[nodiscard]] Relayed contents(server::Gap, Number relation, bool announces) const {
     Relayed gap;
     gap.numbers = irrelevant_;
-    return gap;
-  }
-  /// It announces all that there is.
-  [[nodiscard]] Relayed with_heartbeat(Number relation, Relayed relayed) const {
-    relayed.has_heartbeat = true;
-    relayed.first = relays_[relation % relay::count].first();
-    relayed.last = relays_[relation % relay::count].last();
-    return relayed;
+    return announces ? with_heartbeat(relation, std::move(gap)) : gap;
   }
 
  private:
@@ -221,7 +223,15 @@ class ServerSteps {
   [[nodiscard]] static bool is_in(const RelayWriter::Entry& entry) {
     return entry.state == fsm::Reflect<fsm::ChangeForReader>::id<State>;
   }
+  [[nodiscard]] Relayed asks(Number relation, bool initial);
   [[nodiscard]] Relayed data_of(SendingQueues::Entry entry) const;
+  /// It announces all that there is.
+  [[nodiscard]] Relayed with_heartbeat(Number relation, Relayed relayed) const {
+    relayed.has_heartbeat = true;
+    relayed.first = relays_[relation % relay::count].first();
+    relayed.last = relays_[relation % relay::count].last();
+    return relayed;
+  }
   void note_acknowledgements();
   bool is_pending(Number relay, std::int64_t number, Item item);
   void remove(Number relay, Item item) {

@@ -3,16 +3,20 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "fsm/composition/control.hpp"
 #include "model/engine/packet.hpp"
+#include "model/engine/packet_tags.hpp"
 #include "model/engine/stored.hpp"
-#include "props/monitors/control_sides.hpp"
+#include "model/fastdds/control.hpp"
 
 namespace stormproof::props {
 
 namespace comp = fsm::composition;
 namespace control = comp::control;
+using model::packet_kind_of;
+namespace lookup = comp::lookup;
 
 /// A choice of a contract: it is whatever the run did.
 class Choice {
@@ -51,7 +55,7 @@ struct AuditColumns : model::PlainColumns {
   template <comp::Owner owner>
   static std::uint32_t rows(const model::RunState& run) {
     if constexpr (owner == comp::owner::control_relation) {
-      return ControlSides{run.topology}.count();
+      return model::fastdds::ControlRelations{run}.count();
     } else if constexpr (owner == comp::owner::control_writer) {
       return model::fastdds::control_writers * run.topology.participant_count();
     } else {
@@ -77,7 +81,10 @@ struct Audited {
   using Composition = Composition_;
   using Things = model::ThingsOf<Composition>;  ///< that it keeps itself
   using Columns = AuditColumns<Composition>;
-  using Heard = fsm::TypeList<typename Composition::IsOpen, comp::X>;
+  using Heard =
+      comp::Joined<fsm::TypeList<typename Composition::IsOpen, comp::X>,
+                   std::conditional_t<model::detail::is_listed<lookup::GetsSamples>(Things{}),
+                                      fsm::TypeList<lookup::GetsSamples>, fsm::TypeList<>>>;
   using Packet = model::Packet;  ///< that rules receive
 };
 

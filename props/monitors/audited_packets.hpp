@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "props/monitors/audited_state.hpp"
-#include "props/monitors/packet_tags.hpp"
 
 namespace stormproof::props {
 
@@ -29,10 +28,11 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     if constexpr (std::is_same_v<P, comp::SpdpMulticast>) {
       this->announce(w.template number<comp::owner::participant>());
     } else {
-      if constexpr (P::owner == comp::owner::relation) {
+      constexpr bool of_control = P::owner == comp::owner::control_relation;
+      if constexpr (of_control || P::owner == comp::owner::relation) {
         if (is_filled_) {
           if (put_.to.empty()) put_.message = message_of(packet, w, sayings);
-          put_.to.push_back(w.template number<comp::owner::pair>());
+          put_.to.push_back(w.template number < of_control ? P::owner : comp::owner::pair > ());
           return;
         }
       }
@@ -67,7 +67,7 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   // What is queued, and sent in messages that are filled.
   template <class Visit>
   void for_queue(Number i, Visit&& visit) {
-    if (const auto left = unfinished_.extract(i)) open_ = left.mapped();
+    go_on(i);
     auto& queue = this->queue_of(i);
     while (!queue.empty() && !leaves_queue(i)) {
       const auto first = queue.front();
@@ -90,9 +90,9 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
       std::swap(goes_with_open() ? open_.rides : open_.follow, put_);
       return;
     }
-    const std::uint32_t d = put_.message.descriptors.least();
-    const bool joins = goes_with_open() && !open_.carried.has(d);
-    if (!joins || this->audit_.next_message() != nullptr) flush();
+    const std::uint32_t d =
+        put_.message.samples > 0 ? put_.message.last_sample : put_.message.descriptors.least();
+    if (!goes_with_open() || open_.carried.has(d) || was_sent_without(d)) flush();
     if (open_.carried.empty()) {
       std::swap(open_.message, put_.message);
       std::swap(open_.to, put_.to);
@@ -106,17 +106,51 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     OpenMessage& sent = sent_;
     if (!sent.carried.empty()) {
       const Message* next = this->audit_.next_message();
-      sent.message.descriptors = sent.carried;
       sent.message.carries_heartbeat =
           !sent.rides.to.empty() && next != nullptr && next->carries_heartbeat;
-      sent.message.detail = sent.message.carries_heartbeat ? sent.rides.message.detail : 0;
-      this->audit_.expect(sent.message, sent.to);
+      if (sent.message.is_of_control()) {
+        sent.message.samples = static_cast<Number>(sent.carried.size());
+        sent.message.last_sample += sent.message.samples - 1;
+      } else {
+        sent.message.descriptors = sent.carried;
+        sent.message.detail = sent.message.carries_heartbeat ? sent.rides.message.detail : 0;
+      }
+      expect_to(sent.message, sent.to);
+      if (is_full(sent) && sent.follow.to.empty()) std::swap(sent.rides, sent.follow);
     }
     const Message* next = this->audit_.next_message();
     if (next == nullptr || sent.follow.to.empty()) return;
-    if (next->kind == sent.follow.message.kind) {
-      this->audit_.expect(sent.follow.message, sent.follow.to);
+    if (next->kind == sent.follow.message.kind) expect_to(sent.follow.message, sent.follow.to);
+  }
+  [[nodiscard]] bool open_is_full() const { return is_full(open_); }
+  /// What is left of an asynchronous run goes on.
+  void go_on(Number i) {
+    if (const auto left = unfinished_.extract(i)) open_ = left.mapped();
+  }
+
+  /// Whether the queue is left for now, though there are entries, because its participant stalls.
+  /// The message stays open; if its DATA has gone, HEARTBEATs are left.
+  bool leaves_queue(Number i) {
+    if (!this->may_stall()) return false;
+    std::size_t messages = 0;
+    while (this->audit_.next_message(messages) != nullptr) ++messages;
+    const Move* move = this->audit_.deeds().template next<Move>(messages);
+    if (move == nullptr || move->machine.kind != model::MachineRef::Kind::participant) return false;
+    if (move->event != fsm::name_of<fsm::single_shot::Requested>()) return false;
+    if (messages > 0) {
+      OpenMessage rest;
+      std::swap(rest.follow, open_.follow);
+      flush();
+      if (rest.follow.to.empty()) std::swap(rest.follow, sent_.follow);
+      rest.message = rest.follow.message;
+      rest.to = rest.follow.to;
+      rest.rides = rest.follow;
+      open_ = std::move(rest);
     }
+    typename State::template World<comp::owner::participant> w{this->self(), i};
+    State::Composition::leave_queue(w);
+    unfinished_[i] = std::exchange(open_, {});
+    return true;
   }
 
  private:
@@ -142,6 +176,24 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
     }
   };
 
+  /// To pairs, or on control-only relations.
+  void expect_to(Message& message, const std::vector<Number>& to) {
+    if (!message.is_of_control()) return this->audit_.expect(message, to);
+    for (const Number relation : to) {
+      message.detail = relation;
+      this->audit_.expect(message);
+    }
+  }
+  /// It takes no more DATA, and is sent before its last one is charged.
+  [[nodiscard]] bool is_full(const OpenMessage& message) const {
+    const std::size_t most = this->run_.scenario.dds.version.max_data_per_message;
+    return most > 0 && message.carried.size() >= most;
+  }
+  /// Whether the run has sent a message, without the descriptor or sample that is put now.
+  [[nodiscard]] bool was_sent_without(Number d) {
+    const Message* next = this->audit_.next_message();
+    return next != nullptr && (next->samples == 0 || next->last_sample < d);
+  }
   template <class P, class W, class... Sayings>
   Message message_of(P, W& w, const std::tuple<Sayings...>& sayings) {
     Message message;
@@ -162,10 +214,14 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   }
   template <class Fields, class W, class Field, class Value>
   void say(Message& message, W& w, const comp::Says<Field, Value>& says) {
-    if constexpr (!model::detail::is_listed<Field>(Fields{}) ||
-                  std::derived_from<Field, comp::PacketNumber> ||
-                  std::is_same_v<Field, comp::lookup::IsForReader>) {
-      // Only observers of descriptors hear it, or nobody follows it.
+    if constexpr (std::is_same_v<Field, lookup::SampleCount> ||
+                  std::is_same_v<Field, lookup::SampleNumber>) {
+      message.last_sample = static_cast<std::uint32_t>(says.value);
+      if (std::is_same_v<Field, lookup::SampleNumber>) message.samples = 1;
+    } else if constexpr (!model::detail::is_listed<Field>(Fields{}) ||
+                         std::derived_from<Field, comp::PacketNumber> ||
+                         std::is_same_v<Field, lookup::IsForReader>) {
+      // Only observers of descriptors hear it, or it follows from the sample's number.
     } else if constexpr (std::is_same_v<Field, comp::Carries> ||
                          std::is_same_v<Field, comp::Listed>) {
       message.descriptors = Descriptors{w.set_of(says.value)};
@@ -199,32 +255,9 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   }
   /// Whether what was put goes to the same readers.
   [[nodiscard]] bool goes_with_open() const {
-    return put_.message.stream == open_.message.stream && put_.to == open_.to;
+    return put_.message.is_of_control() == open_.message.is_of_control() &&
+           put_.message.stream == open_.message.stream && put_.to == open_.to;
   }
-  /// Whether the queue is left for now, though there are entries, because its participant stalls.
-  /// The message stays open; if its DATA has gone, HEARTBEATs are left.
-  bool leaves_queue(Number i) {
-    if (!this->may_stall()) return false;
-    std::size_t messages = 0;
-    while (this->audit_.next_message(messages) != nullptr) ++messages;
-    const Move* move = this->audit_.deeds().template next<Move>(messages);
-    if (move == nullptr || move->machine.kind != model::MachineRef::Kind::participant) return false;
-    if (move->event != fsm::name_of<fsm::single_shot::Requested>()) return false;
-    if (messages > 0) {
-      OpenMessage rest;
-      std::swap(rest.follow, open_.follow);
-      flush();
-      rest.message.stream = rest.follow.message.stream;
-      rest.to = rest.follow.to;
-      rest.rides = rest.follow;
-      open_ = std::move(rest);
-    }
-    typename State::template World<comp::owner::participant> w{this->self(), i};
-    State::Composition::leave_queue(w);
-    unfinished_[i] = std::exchange(open_, {});
-    return true;
-  }
-
   bool is_filled_ = false;  // by the step that is executed
   Put put_;                 // by it
   OpenMessage open_;

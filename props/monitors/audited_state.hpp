@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "fsm/composition/heartbeat_clock.hpp"
-#include "fsm/composition/lookup_parts.hpp"
 #include "fsm/composition/reader.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/running_world.hpp"
@@ -23,6 +22,10 @@
 #include "props/monitors/received_descriptors.hpp"
 
 namespace stormproof::props {
+
+/// Packets that are no messages of contents, each with fields of its own.
+template <class Packet>
+concept OfNumbers = std::is_same_v<Packet, model::Packet>;
 
 /// `Self` is the host of `Of`; `Base` is below it, a Follower or the host of other rules.
 template <class Self, class Base, class Of>
@@ -96,29 +99,34 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
 
   // What packets say. Of the first descriptors of a stream it is how many these are.
   using Below::word;
-  [[nodiscard]] std::uint64_t word(comp::Carries, const Packet& packet, Number k) const {
+  template <OfNumbers P>
+  [[nodiscard]] std::uint64_t word(comp::Carries, const P& packet, Number k) const {
     return packet.descriptors.word(k);
   }
-  [[nodiscard]] std::uint64_t word(comp::Listed, const Packet& packet, Number k) const {
+  template <OfNumbers P>
+  [[nodiscard]] std::uint64_t word(comp::Listed, const P& packet, Number k) const {
     return packet.descriptors.word(k);
   }
-  [[nodiscard]] std::uint64_t word(comp::BelowBase, const Packet& packet, Number k) const {
+  template <OfNumbers P>
+  [[nodiscard]] std::uint64_t word(comp::BelowBase, const P& packet, Number k) const {
     return model::bits_below(has_bases_ ? packet.detail : packet.descriptors.lowest(), k);
   }
-  [[nodiscard]] std::uint64_t word(comp::Announces, const Packet& packet, Number k) const {
+  template <OfNumbers P>
+  [[nodiscard]] std::uint64_t word(comp::Announces, const P& packet, Number k) const {
     return model::bits_below(packet.detail, k);
   }
-  static bool said(comp::CarriesHeartbeat, const Packet& packet) {
+  template <OfNumbers P>
+  static bool said(comp::CarriesHeartbeat, const P& packet) {
     return packet.carries_heartbeat;
   }
-  static bool said(comp::IsRepair, const Packet& packet) { return packet.from_repair; }
-  static bool said(comp::IsInitial, const Packet& packet) { return packet.initial_acknack; }
-  template <class Field>
-  requires(std::derived_from<Field, comp::PacketNumber>) static std::int64_t
-      said(Field, const Packet& packet) {
-    return packet.last_sample();
+  template <OfNumbers P>
+  static bool said(comp::IsRepair, const P& packet) {
+    return packet.from_repair;
   }
-  static bool said(comp::lookup::IsForReader, const Packet&) { return false; }
+  template <OfNumbers P>
+  static bool said(comp::IsInitial, const P& packet) {
+    return packet.initial_acknack;
+  }
 
   // Readers.
   [[nodiscard]] const std::vector<Number>& readers(Number writer) const { return readers_[writer]; }
@@ -140,11 +148,12 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
       readers.insert(std::ranges::lower_bound(readers, relation), relation);
     }
   }
-  /// The reader has these, and no others. Perhaps they complete the run.
+  /// The reader has these, and no others. Perhaps they complete the run; where endpoints have types
+  /// it is notifications that do.
   virtual void take_descriptors(Number relation, const model::DescriptorSet& received) {
     const Number before = std::exchange(received_[relation], received.count());
     const Number now = received_[relation];
-    if (is_required(relation / 2)) {
+    if (is_required(relation / 2) && !this->run_.scenario.deployment.types) {
       this->run_.missing += before;
       this->run_.missing -= now;
     }

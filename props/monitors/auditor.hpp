@@ -5,6 +5,7 @@
 //   audited_state.hpp    what is remembered, what packets say, timers
 //   audited_packets.hpp  what is emitted, and the choices of contracts
 //   audited_steps.hpp    opaque steps
+//   audited_topics.hpp   those of control-only relations, if there are any
 // and here what starts rules, also of participants that have a life.
 #pragma once
 
@@ -12,8 +13,7 @@
 
 #include "model/engine/living_host.hpp"
 #include "model/life.hpp"
-#include "model/trace/event_subject.hpp"
-#include "props/monitors/audited_steps.hpp"
+#include "props/monitors/audited_topics.hpp"
 
 namespace stormproof::props {
 
@@ -23,8 +23,13 @@ inline constexpr bool has_rule = []<class... Rules>(fsm::TypeList<Rules...>) {
 }(typename Composition::Rules{});
 
 template <class Self, class Base, class Of>
-class AuditedRules : public AuditedSteps<Self, Base, Of> {
-  using Steps = AuditedSteps<Self, Base, Of>;
+using AuditedOpaque =
+    std::conditional_t<model::detail::is_listed<control::ControlWriterSide>(typename Of::Things{}),
+                       AuditedTopics<Self, Base, Of>, AuditedSteps<Self, Base, Of>>;
+
+template <class Self, class Base, class Of>
+class AuditedRules : public AuditedOpaque<Self, Base, Of> {
+  using Steps = AuditedOpaque<Self, Base, Of>;
 
  public:
   using typename Steps::Columns;
@@ -53,7 +58,10 @@ class AuditedRules : public AuditedSteps<Self, Base, Of> {
     }
   }
   void due(const model::Event& event) override {
-    if (has_life_ && is_away(life_, actor_of(event), this->run_.now)) return;
+    if (has_life_) {
+      const Number actor = model::actor_of_timer(this->self(), event).value_or(event.subject);
+      if (is_away(life_, actor, this->run_.now)) return;
+    }
     if (event.kind == model::EventKind::endpoint_creation) create(event);
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
@@ -125,10 +133,12 @@ class AuditedRules : public AuditedSteps<Self, Base, Of> {
     const Number sender = packet.to_writer() ? ends.destination : ends.source;
     if (!this->has_started(receiver)) return;
     if (has_life_ && !hears(life_, sender, receiver, packet.emitted, this->run_.now)) return;
-    if constexpr (P::owner == comp::owner::control_relation) {
-      run<comp::Received<P>>(packet.detail, &packet);
+    if constexpr (std::is_same_v<P, lookup::LookupSample>) {
+      this->take_samples(packet, [&]<class Part>(Part, const Packet& part) {
+        run<comp::Received<Part>>(packet.detail, &part);
+      });
     } else {
-      run<comp::Received<P>>(P::owner == comp::owner::pair ? pair : packet.relation(), &packet);
+      run<comp::Received<P>>(packet.multicast() ? pair : model::number_of<P>(packet), &packet);
     }
   }
   void expect_start(Number i) override {
@@ -170,24 +180,6 @@ class AuditedRules : public AuditedSteps<Self, Base, Of> {
     if constexpr (P::owner == comp::owner::control_relation)
       return this->pair_of_control(packet.detail);
     return packet.pair;
-  }
-  /// Whose event it is: readers act in their relations at the destination, writers at the source.
-  [[nodiscard]] Number actor_of(const model::Event& event) const {
-    using enum model::trace::Subject;
-    switch (model::trace::subject_of(event.kind)) {
-      case writer:
-        return event.subject / 2;
-      case relation: {
-        const model::Pair& ends = this->topology().pair(event.subject / 2);
-        return event.kind == model::EventKind::suppression_end ? ends.source : ends.destination;
-      }
-      case control_relation:
-        return this->topology().pair(this->pair_of_control(event.subject)).destination;
-      case pair:
-        return this->topology().pair(event.subject).destination;
-      default:
-        return event.subject;
-    }
   }
 };
 

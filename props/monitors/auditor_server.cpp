@@ -61,25 +61,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
   }
   void received(const model::Packet& packet, Number receiver) override {
     if (!has_started(receiver)) return;
-    const Number relation = relay::count * packet.pair + packet.detail;
-    switch (packet.kind) {
-      case model::PacketKind::registration:
-        return run<comp::Received<server::Registration>>(packet.pair, &packet);
-      case model::PacketKind::registration_heartbeat:
-        return run<comp::Received<server::RegistrationHeartbeat>>(packet.pair, &packet);
-      case model::PacketKind::registration_acknack:
-        return run<comp::Received<server::RegistrationAckNack>>(packet.pair, &packet);
-      case model::PacketKind::relayed_acknack:
-        return run<comp::Received<server::RelayedAckNack>>(relation, &packet);
-      case model::PacketKind::relayed:
-        if (packet.relayed->has_data)
-          return run<comp::Received<server::RelayedData>>(relation, &packet);
-        if (!packet.relayed->numbers.empty())
-          return run<comp::Received<server::Gap>>(relation, &packet);
-        return run<comp::Received<server::RelayHeartbeat>>(relation, &packet);
-      default:
-        return Clients::received(packet, receiver);
-    }
+    if (!Steps::take_in(packet)) Clients::received(packet, receiver);
   }
   /// A reader of the server receives what is new to it.
   void take_descriptors(Number relation, const model::DescriptorSet& received) override {
@@ -92,7 +74,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
       arrive(ends.source, model::streams[relation % 2], d);
       some = true;
     });
-    if (some) happens<server::Arrives>(server_id());
+    if (some) run<comp::Happens<server::Arrives>>(server_id());
   }
   /// Discovery needs what clients learn.
   [[nodiscard]] bool is_required(Number) const override { return false; }
@@ -128,11 +110,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
   }
 
   // What steps ask of it.
-  template <class Occasion>
-  void happens(Number n) {
-    model::RunningWorld<ServerAuditor, Occasion::owner> w{*this, n};
-    w.raise(Occasion{});
-  }
+  using Rules::run;
   template <class Occasion>
   void runs_for_clients(Number relation) {
     model::RunningWorld<Clients, Occasion::owner> w{*this, relation};
@@ -157,27 +135,13 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
       }
       if (run_.ends_now()) return;
     }
-    if (topology().pair(pair).cross_host) Clients::open_sides(pair);
+    Clients::open_sides(pair);
   }
 
  protected:
   void expect_start(Number i) override {
     schedule(server::ClientAnnouncement{}, topology().pair_between(i, server_id()),
              topology().start(i).count());
-  }
-
- private:
-  [[nodiscard]] model::Relayed contents(server::RelayedData, Number relation, bool serves) const {
-    return serves ? with_heartbeat(relation, served()) : own_announcement();
-  }
-  [[nodiscard]] model::Relayed contents(server::RelayHeartbeat, Number relation, bool) const {
-    return with_heartbeat(relation, {});
-  }
-  [[nodiscard]] model::Relayed contents(server::Gap, Number relation, bool announces) const {
-    return announces ? with_heartbeat(relation, skipped()) : skipped();
-  }
-  [[nodiscard]] model::Relayed contents(server::RelayedAckNack, Number relation, bool initial) {
-    return asks(relation, initial);
   }
 };
 

@@ -149,7 +149,10 @@ std::string said(const Message& message, const model::Topology& topology) {
       return server_message_text(message, topology);
     case user_heartbeat:
     case user_acknack:
+    case lookup:
       text += fmt::format(" of control-only relation {}", message.detail);
+      if (message.samples > 0) text += fmt::format(" with {} samples", message.samples);
+      if (message.last_sample > 0) text += fmt::format(" up to number {}", message.last_sample);
       break;
     default:
       text += " of " + relation_text(topology, message.relation());
@@ -165,9 +168,14 @@ std::string said(const Message& message, const model::Topology& topology) {
 
 namespace {
 
-bool is_of_control(const model::Packet& packet) {
-  return packet.kind == model::PacketKind::user_heartbeat ||
-         packet.kind == model::PacketKind::user_acknack;
+bool is_of_control(model::PacketKind kind) {
+  return kind == model::PacketKind::user_heartbeat || kind == model::PacketKind::user_acknack ||
+         kind == model::PacketKind::lookup;
+}
+/// A HEARTBEAT rides in it.
+bool carries_heartbeat(const model::Packet& packet) {
+  return packet.carries_heartbeat ||
+         (packet.kind == model::PacketKind::lookup && packet.heartbeats > 0);
 }
 
 Message content_of(const model::Submessage& submessage) {
@@ -201,19 +209,24 @@ Message content_of(const model::Submessage& submessage) {
 
 }  // namespace
 
+bool Message::is_of_control() const { return props::is_of_control(kind); }
+
 bool Message::says_what(const Message& other) const {
   return kind == other.kind && stream == other.stream && detail == other.detail &&
          initial == other.initial && repair == other.repair &&
          carries_heartbeat == other.carries_heartbeat && to_nobody == other.to_nobody &&
          to_group == other.to_group && directed == other.directed && loops_to == other.loops_to &&
          bytes == other.bytes && writer == other.writer && count == other.count &&
+         samples == other.samples && last_sample == other.last_sample &&
          descriptors == other.descriptors && contents == other.contents && relayed == other.relayed;
 }
 
 bool Message::says_what(const model::Packet& packet) const {
   return kind == packet.kind && stream == packet.stream && detail == packet.detail &&
          initial == packet.initial_acknack && repair == packet.from_repair &&
-         carries_heartbeat == packet.carries_heartbeat && to_nobody == packet.to_nobody &&
+         carries_heartbeat == props::carries_heartbeat(packet) && to_nobody == packet.to_nobody &&
+         (!is_of_control() ||
+          (samples == packet.samples() && last_sample == packet.last_sample())) &&
          !packet.multicast() && packet.submessages == nullptr && packet.relayed == nullptr &&
          descriptors.are(packet.descriptors);
 }
@@ -226,13 +239,18 @@ bool RelayedContents::operator==(const RelayedContents& other) const {
 Message message_of(const model::Packet& packet) {
   Message message;
   message.kind = packet.kind;
-  message.pair = is_of_control(packet) ? 0 : packet.pair;
+  if (message.is_of_control()) {
+    message.samples = packet.samples();
+    message.last_sample = packet.last_sample();
+  } else {
+    message.pair = packet.pair;
+  }
   message.stream = packet.stream;
   message.descriptors = Descriptors{packet.descriptors};
   message.detail = packet.detail;
   message.initial = packet.initial_acknack;
   message.repair = packet.from_repair;
-  message.carries_heartbeat = packet.carries_heartbeat;
+  message.carries_heartbeat = carries_heartbeat(packet);
   message.to_nobody = packet.to_nobody;
   message.to_group = packet.to_group;
   if (packet.submessages != nullptr) {
@@ -262,7 +280,7 @@ std::string said(const Scheduled& event, const model::Topology& topology) {
 }
 
 void Deeds::add(const model::Packet& packet, std::uint32_t pair, std::uint32_t loops_to) {
-  if (is_of_control(packet)) pair = 0;
+  if (is_of_control(packet.kind)) pair = 0;
   auto& messages = list_of<Message>();
   const bool goes_on =
       !order_.empty() && order_.back().tag == Tag::message && messages.back().says_what(packet);

@@ -53,6 +53,9 @@ struct Message {
   std::uint32_t loops_to = UINT32_MAX;  ///< a multicast that goes to a participant of its host
   std::uint32_t detail = 0;             ///< as in `Packet`, of contents, too
   std::uint32_t bytes = 0;
+  // Of a control-only relation, as in `Packet`.
+  std::uint32_t samples = 0;
+  std::uint32_t last_sample = 0;
   Descriptors descriptors;   ///< carried or listed
   std::uint32_t writer = 0;  ///< of a content: which one (model/cyclone/endpoints.hpp)
   std::int64_t count = 0;    ///< of a content that is a HEARTBEAT or ACKNACK
@@ -65,6 +68,7 @@ struct Message {
   /// Whether the packet is it, to whomever; of those with contents and of multicasts it is not
   /// told.
   [[nodiscard]] bool says_what(const model::Packet& packet) const;
+  [[nodiscard]] bool is_of_control() const;
   [[nodiscard]] bool is_multicast() const {
     return to_group || kind == model::PacketKind::spdp_multicast;
   }

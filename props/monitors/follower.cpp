@@ -1,6 +1,9 @@
 // What starts at the beginning, and what goes to everybody.
 #include "props/monitors/follower.hpp"
 
+#include <utility>
+
+#include "model/engine/endpoint_creations.hpp"
 #include "model/fastdds/peer_ports.hpp"
 
 namespace stormproof::props {
@@ -24,25 +27,28 @@ void Follower::take_creations(Number i) {
 std::optional<model::Endpoint> Follower::created_by(const model::Event& event) {
   const Number i = event.subject;
   if (run_.scenario.deployment.life && creations_[i].erase(event.insertion()) == 0) return {};
-  const Number publications = run_.topology.descriptor_count(i, model::Stream::pub);
-  const Number k = may_stall() ? created_[i]++ : event.detail;
-  return model::creation_order(k, publications - model::default_publications);
+  return model::creation_of(run_.topology, i, may_stall() ? created_[i]++ : event.detail);
 }
 
-/// To every participant of the same host, then to the others; with static peers to the ports.
-void Follower::announce(Number i) {
-  if (run_.scenario.dds.discovery == model::Discovery::static_peers) return announce_to_ports(i);
+void Follower::expect_from(Number i, Message message) {
   const model::Topology& topology = run_.topology;
-  Message message;
-  message.kind = model::PacketKind::spdp_multicast;
-  message.pair = i;
-  for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1); ++pair) {
+  for (Number pair = topology.first_pair(i);
+       message.is_multicast() && pair < topology.first_pair(i + 1); ++pair) {
     if (topology.pair(pair).cross_host) continue;
     message.loops_to = topology.pair(pair).destination;
     audit_.expect(message);
   }
   message.loops_to = UINT32_MAX;
   audit_.expect(message);
+}
+
+/// With static peers to the ports.
+void Follower::announce(Number i) {
+  if (run_.scenario.dds.discovery == model::Discovery::static_peers) return announce_to_ports(i);
+  Message message;
+  message.kind = model::PacketKind::spdp_multicast;
+  message.pair = i;
+  expect_from(i, std::move(message));
 }
 
 /// A copy to each port of every host that is asked; on one's own host, if somebody is there.

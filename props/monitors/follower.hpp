@@ -41,6 +41,9 @@ class Follower {
  protected:
   /// Announcement 0 of participant i, or what starts it otherwise.
   virtual void expect_start(Number i) = 0;
+  /// What participant i sends is next; a multicast goes to every participant of its host, then to
+  /// the others.
+  void expect_from(Number i, Message message);
   /// What an announcement to everybody is.
   void announce(Number i);
   [[nodiscard]] bool has_started(Number participant) const {

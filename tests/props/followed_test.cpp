@@ -124,6 +124,21 @@ TEST(Followed, AServerThatDoesOtherwiseIsNoticed) {
   }
 }
 
+/// What later versions of Fast DDS have, static peers and servers among it; lookups of types.
+TEST(Followed, RunsOfLaterVersionsAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 20'000;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    Scenario scenario = seed % 2 == 0 ? oracle::random_lookup_scenario(seed)
+                                      : oracle::varied_version_scenario(seed);
+    if (seed % 7 == 6) scenario.wireless.sender = model::Sender::stalls;
+    const auto monitor = follow(scenario, options);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+  }
+}
+
 /// When a piggyback budget is used up is the host's: HEARTBEATs may ride or follow, or not.
 bool is_of_the_budget(const EffectMutation& mistake) {
   return mistake.what.find("RefillBudget") != std::string::npos ||
@@ -168,6 +183,10 @@ TEST_P(Followed, MistakesAtEffectsThatChangeARunAreNoticed) {
   std::vector<Scenario> scenarios;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     scenarios.push_back(oracle::random_scenario(seed, GetParam()));
+  }
+  const bool has_types = GetParam() == ImplementationKind::fastdds;
+  for (std::uint64_t seed = 1; has_types && seed <= 30; ++seed) {
+    scenarios.push_back(oracle::random_lookup_scenario(seed));
   }
   const std::string name{model::composition_of(GetParam()).name};
   expect_noticed(name, scenarios, 80, [](const std::string&) { return true; });

@@ -3,17 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <string_view>
 #include <utility>
 
+#include "fsm/composition/owner.hpp"
 #include "fsm/reflect.hpp"
 #include "model/engine/packet.hpp"
 
-namespace stormproof::props {
+namespace stormproof::model {
 
 namespace detail {
-using enum model::PacketKind;
-inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 15> packets{{
+using enum PacketKind;
+inline constexpr std::array<std::pair<std::string_view, PacketKind>, 15> packets{{
     {"SpdpMulticast", spdp_multicast},
     {"SpdpUnicast", spdp_unicast},
     {"Data", data},
@@ -33,10 +35,20 @@ inline constexpr std::array<std::pair<std::string_view, model::PacketKind>, 15> 
 }  // namespace detail
 
 template <class Packet>
-inline constexpr model::PacketKind packet_kind_of = [] {
+inline constexpr PacketKind packet_kind_of = [] {
   const auto* const found = std::ranges::find(detail::packets, fsm::name_of<Packet>(),
                                               &decltype(detail::packets)::value_type::first);
   return found->second;  // not a constant if it is not there
 }();
 
-}  // namespace stormproof::props
+/// Which one of those that have such packets it is about; not of one that goes to everybody.
+template <class P>
+[[nodiscard]] std::uint32_t number_of(const PacketNumbers& packet) {
+  if constexpr (P::owner == fsm::composition::owner::control_relation) {
+    return packet.detail;
+  } else {
+    return P::owner == fsm::composition::owner::pair ? packet.pair : packet.relation();
+  }
+}
+
+}  // namespace stormproof::model
