@@ -4,8 +4,19 @@
 #include <random>
 
 #include "model/engine/fleet.hpp"
+#include "model/engine/submessage.hpp"
 
 namespace stormproof::model {
+
+namespace {
+
+std::uint32_t submessages_of(const Packet& packet) {
+  if (packet.submessages != nullptr) return static_cast<std::uint32_t>(packet.submessages->size());
+  const bool has_data = packet.kind == PacketKind::data;
+  return has_data ? packet.descriptors.count() + packet.heartbeats : 1;
+}
+
+}  // namespace
 
 Processors::Processors(RunState& run, const Processor& processor, const Fleet& fleet)
     : run_{run},
@@ -16,11 +27,12 @@ Processors::Processors(RunState& run, const Processor& processor, const Fleet& f
   for (Cores& cores : hosts_) cores.free = processor.cores;
   std::mt19937_64 random{processor.deaf_seed};
   const Nanoseconds range = processor.deaf_max - processor.deaf_min;
-  for (std::uint32_t i = 0; i < threads_.size(); ++i) {
+  for (const Participant& participant : run.scenario.deployment.participants) {
     const std::uint64_t drawn = random() % (static_cast<std::uint64_t>(range.count()) + 1);
-    hears_from_.push_back(run.topology.start(i) + processor.deaf_min +
+    hears_from_.push_back(participant.open.value_or(participant.start) + processor.deaf_min +
                           Nanoseconds{static_cast<std::int64_t>(drawn)});
   }
+  hears_from_.resize(threads_.size());  // a server has been there before
 }
 
 bool Processors::begins(std::uint32_t participant, const Event& event) {
@@ -66,8 +78,7 @@ void Processors::give(Cores& cores) {
 }
 
 Nanoseconds Processors::of_submessages(const Packet& packet) const {
-  const bool has_data = packet.kind == PacketKind::data;
-  return processor_.submessage * (has_data ? packet.descriptors.count() + packet.heartbeats : 1);
+  return processor_.submessage * submessages_of(packet);
 }
 
 Nanoseconds Processors::waited(std::uint32_t participant) const {

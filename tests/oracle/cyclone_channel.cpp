@@ -52,6 +52,7 @@ void count(World& w, const Packet& packet, const Message& m) {
 }  // namespace
 
 void emit(World& w, Packet packet) {
+  charge_sending(w, packet);
   packet.id = w.packets.size();
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
   const bool on_channel = !receivers(w, packet, false).empty();

@@ -22,11 +22,14 @@ const char* name_of(EventKind kind) {
       return "run of the event thread";
     case EventKind::dispatch:
       return "dispatch";
+    case EventKind::thread_free:
+      return "thread free";
   }
   return "";
 }
 
 void receive(World& w, const Event& e) {
+  if (!hears(w, e.who)) return;
   const Participant& p = w.participants.at(e.who);
   if (w.now < p.open && !w.makes(Mistake::hears_before_open)) return;
   if (w.now < p.ready && !w.makes(Mistake::always_ready)) {
@@ -34,6 +37,7 @@ void receive(World& w, const Event& e) {
     return;
   }
   const Packet packet = w.packets.at(e.packet);
+  charge_reception(w, packet);
   for (const Message& m : packet.messages) {
     switch (m.kind) {
       case MessageKind::spdp:
@@ -70,6 +74,8 @@ void process(World& w, const Event& e) {
       return run_thread(w, e.who);
     case EventKind::dispatch:
       return dispatch(w, e.channel);
+    case EventKind::thread_free:
+      return threads::free_again(w, e.who);
   }
 }
 
@@ -132,8 +138,13 @@ CycloneOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
     w.queue.erase(w.queue.begin());
     w.now = std::get<0>(key);
     ++w.outcome.events;
+    const std::optional<Id> actor = who_acts(w, event);
+    const auto [time, event_class, number] = key;
+    if (actor && !threads::begins(w, *actor, number, event_class, event)) continue;
+    if (actor && event.kind == EventKind::run) w.cost += scenario.hosts->timer.count();
     if (log) log(log_entry(key, event));
     process(w, event);
+    if (actor) finish(w, *actor);
   }
   w.outcome.missing = missing_descriptors(w);
   return w.outcome;

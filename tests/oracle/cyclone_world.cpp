@@ -74,6 +74,7 @@ World::World(const model::Scenario& s, Mistake m)
       if (i != j) add_readers(*this, i, j);
     }
   }
+  threads::draw_deafness(*this, [](const Participant& p) { return p.open; });
   if (missing == 0) throw std::invalid_argument{"the deployment has no cross-host pair"};
   for (const model::Stage& stage : s.wireless.stages) channels[stage.channel];
   lost_packets.insert(s.wireless.lost_packets.begin(), s.wireless.lost_packets.end());

@@ -15,6 +15,7 @@
 #include "model/scenario.hpp"
 #include "tests/oracle/cyclone_oracle.hpp"
 #include "tests/oracle/staged_channel.hpp"
+#include "tests/oracle/threads.hpp"
 
 namespace stormproof::oracle::cyclone {
 
@@ -31,7 +32,16 @@ constexpr int subscriptions = 1;
 constexpr int liveliness = 2;
 constexpr int builtins = 5;
 
-enum class EventKind { service_finished, reception, start, creation, timer, run, dispatch };
+enum class EventKind {
+  service_finished,
+  reception,
+  start,
+  creation,
+  timer,
+  run,
+  dispatch,
+  thread_free  // with processors
+};
 
 struct Event {
   EventKind kind = EventKind::dispatch;
@@ -134,10 +144,12 @@ struct Reader {
 };
 
 struct Participant {
+  threads::Thread<Event> thread;  // with processors
   std::uint32_t host = 0;
   Time start = 0;
   Time open = 0;
   Time ready = 0;
+  Time hears_from = 0;
   std::set<Id> known;
   std::size_t announcement = 0;  // its timer
   std::set<std::pair<int, Sample>> created;
@@ -178,6 +190,9 @@ struct World {
   std::map<std::string, Channel> channels;
   std::map<std::uint64_t, Packet> packets;
   std::set<std::uint64_t> lost_packets;
+  std::map<Id, std::deque<Id>> queues;  // for a core, by host
+  std::map<Id, std::uint32_t> running;
+  Time cost = 0;  // of what a thread does now
   /// An answer that is kept while a packet is processed.
   std::optional<Message> kept;
   std::int64_t missing = 0;
@@ -209,6 +224,13 @@ void leave_source(World& w, const Packet& packet);
 void arrive(World& w, const Packet& packet);
 void dispatch(World& w, const std::string& name);
 void service_finished(World& w, const Event& event);
+
+// cyclone_processors.cpp
+[[nodiscard]] bool hears(const World& w, Id i);
+[[nodiscard]] std::optional<Id> who_acts(const World& w, const Event& event);
+void finish(World& w, Id i);
+void charge_sending(World& w, const Packet& packet);
+void charge_reception(World& w, const Packet& packet);
 
 // cyclone_discovery.cpp
 void start(World& w, Id i);

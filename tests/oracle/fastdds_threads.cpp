@@ -1,7 +1,4 @@
-// Threads that take time: one for each participant, as many at once on a host as it has cores, and
-// a line for each.
-#include <algorithm>
-
+// Whose threads take time for what (threads.hpp has the threads).
 #include "tests/oracle/fastdds_world.hpp"
 
 namespace stormproof::oracle::fastdds {
@@ -13,23 +10,6 @@ Time of_submessages(const World& w, const Packet& packet) {
   const auto count =
       has_data ? static_cast<Time>(packet.descriptors.size()) + packet.heartbeats : 1;
   return count * w.scenario.hosts->submessage.count();
-}
-
-/// Cores go to those who have waited longest.
-void give_cores(World& w, Id host) {
-  std::deque<Id>& queue = w.queues[host];
-  const std::uint32_t cores = w.scenario.hosts->cores;
-  while (!queue.empty() && (w.running[host] < cores || w.makes(WifiMistake::any_number_of_cores))) {
-    Thread& thread = w.participants.at(queue.front()).thread;
-    queue.pop_front();
-    thread.queues = false;
-    thread.runs = true;
-    ++w.running[host];
-    const auto [event_class, event] = thread.line.front();
-    thread.line.pop_front();
-    thread.begins_with = w.insertions;
-    schedule(w, w.now, event_class, event);
-  }
 }
 
 }  // namespace
@@ -50,46 +30,17 @@ std::optional<Id> who_acts(const World& w, EventClass event_class, const Event& 
 }
 
 bool begins(World& w, Id i, std::uint64_t number, EventClass event_class, const Event& event) {
-  Thread& thread = w.participants.at(i).thread;
-  const Id host = w.participants.at(i).host;
-  w.cost = 0;
-  if (thread.begins_with == number) {
-    thread.begins_with.reset();
-    return true;
-  }
-  thread.line.emplace_back(event_class, event);
-  if (thread.runs) return false;
-  const std::uint32_t cores = w.scenario.hosts->cores;
-  const bool has_core = w.running[host] < cores || w.makes(WifiMistake::any_number_of_cores);
-  if (!thread.queues && has_core) {
-    thread.line.pop_back();
-    thread.runs = true;
-    ++w.running[host];
-    return true;
-  }
-  if (!thread.queues) w.queues[host].push_back(i);
-  thread.queues = true;
-  return false;
+  return threads::begins(w, i, number, event_class, event);
 }
 
 void finish(World& w, Id i) {
   Event event;
   event.kind = EventKind::thread_free;
   event.from = i;
-  schedule(w, w.now + w.cost, EventClass::protocol, event);
+  threads::finish(w, event);
 }
 
-void thread_free(World& w, Id i) {
-  Thread& thread = w.participants.at(i).thread;
-  const Id host = w.participants.at(i).host;
-  thread.runs = false;
-  --w.running[host];
-  if (!thread.line.empty()) {
-    w.queues[host].push_back(i);
-    thread.queues = true;
-  }
-  give_cores(w, host);
-}
+void thread_free(World& w, Id i) { threads::free_again(w, i); }
 
 void charge_sending(World& w, const Packet& packet) {
   if (!w.scenario.hosts) return;

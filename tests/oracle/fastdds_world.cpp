@@ -38,15 +38,7 @@ World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi,
     participant.start = p.start.count();
     participants.push_back(participant);
   }
-  if (s.hosts) {
-    std::mt19937_64 of_deafness{s.hosts->deaf_seed};
-    for (Participant& p : participants) {
-      p.hears_from = p.start + s.hosts->deaf_min.count();
-      const auto values =
-          static_cast<std::uint64_t>((s.hosts->deaf_max - s.hosts->deaf_min).count() + 1);
-      p.hears_from += static_cast<Time>(of_deafness() % values);
-    }
-  }
+  threads::draw_deafness(*this, [](const Participant& p) { return p.start; });
   if (s.deployment.host_count() < 2) throw std::invalid_argument{"no cross-host pair"};
   const model::Discovery discovery = s.dds.discovery;
   if (discovery == model::Discovery::server || discovery == model::Discovery::super_client) {

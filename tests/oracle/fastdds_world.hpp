@@ -17,6 +17,7 @@
 #include "model/scenario.hpp"
 #include "tests/oracle/fastdds_oracle.hpp"
 #include "tests/oracle/staged_channel.hpp"
+#include "tests/oracle/threads.hpp"
 
 namespace stormproof::oracle::fastdds {
 
@@ -219,16 +220,8 @@ struct Message {
   std::map<Id, Id> repair_data;
 };
 
-/// What a participant's thread has to do, in line.
-struct Thread {
-  std::deque<std::pair<EventClass, Event>> line;
-  bool runs = false;  // on a core
-  bool queues = false;
-  std::optional<std::uint64_t> begins_with;  // number of an event
-};
-
 struct Participant {
-  Thread thread;
+  threads::Thread<Event> thread;
   std::optional<Message> unfinished;  // of an async run that has stopped
   std::vector<Event> held;            // while it stalls
   std::vector<std::pair<int, Id>> to_create;

@@ -332,7 +332,10 @@ enum class CycloneMistake : std::uint8_t {
   repairs_leave_timer,   ///< nor move the timer
   answers_replaced,      ///< of two answers in a packet only the last is sent
   answers_at_once,       ///< answers do not wait for the end of the packet
-  answers_undirected,    ///< answers are HEARTBEATs like all others
+  // Processors, in scenarios that have some.
+  receptions_free,         ///< what is received takes no thread
+  messages_received_free,  ///< nor do the messages in it
+  answers_undirected,      ///< answers are HEARTBEATs like all others
 };
 
 inline constexpr std::size_t mistake_count =

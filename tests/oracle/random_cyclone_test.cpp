@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "props/generators/on_demand.hpp"
 #include "tests/oracle/comparison.hpp"
 #include "tests/oracle/random_scenario.hpp"
 
@@ -83,6 +84,16 @@ TEST(RandomCycloneScenario, RunsAreVaried) {
 TEST(RandomCycloneScenario, ProductAndOracleAgree) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed) {
     const auto found = difference(random_cyclone_scenario(seed));
+    EXPECT_FALSE(found) << "seed " << seed << ": " << *found;
+  }
+}
+
+TEST(RandomCycloneScenario, ProductAndOracleAgreeOnThreadsThatTakeTime) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Scenario scenario = random_cyclone_scenario(seed);
+    props::Dice dice{seed};
+    props::draw_processor(dice, scenario);
+    const auto found = difference(scenario);
     EXPECT_FALSE(found) << "seed " << seed << ": " << *found;
   }
 }

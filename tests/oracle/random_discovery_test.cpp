@@ -43,6 +43,16 @@ TEST_P(RandomDiscovery, ProductAndOracleAgree) {
   EXPECT_GT(repaired, static_cast<int>(seeds / 10));
 }
 
+TEST_P(RandomDiscovery, ProductAndOracleAgreeOnThreadsThatTakeTime) {
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Scenario scenario = random_scenario_of(GetParam(), seed);
+    props::Dice dice{seed};
+    props::draw_processor(dice, scenario);
+    const auto found = difference(scenario);
+    ASSERT_FALSE(found) << "seed " << seed << ": " << *found;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ways, RandomDiscovery,
                          testing::Values(Discovery::server, Discovery::super_client,
                                          Discovery::static_peers),

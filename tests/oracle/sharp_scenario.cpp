@@ -179,6 +179,10 @@ Scenario varied_cyclone_scenario(std::uint64_t seed) {
     scenario.time_limit =
         Nanoseconds{std::max<std::int64_t>(scenario.time_limit.count(), 200 * ms)};
   }
+  if (seed % 5 == 2) {
+    Dice dice{seed + 1};
+    props::draw_processor(dice, scenario);
+  }
   if (seed % 4 == 3) scenario.run_until = model::RunUntil::time_limit;
   return scenario;
 }

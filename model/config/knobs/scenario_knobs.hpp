@@ -212,11 +212,6 @@ inline constexpr std::uint64_t max_descriptor_deliveries = 10'000'000'000;
   return descriptors * (scenario.deployment.participants.size() - 1);
 }
 
-/// Whether it is known of the participants what a thread of theirs does, and when.
-[[nodiscard]] inline bool takes_processor_time(const DdsProfile& dds) {
-  return traits_of(dds).has_processor_times;
-}
-
 /// Amplifications of real storms are around 10; the limit keeps products within 64 bits.
 inline constexpr std::int64_t max_amplification = 1'000'000;
 
@@ -324,8 +319,7 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
              "deployment.hosts",
              "a number of hosts, or a shared_channel of two stages, to the access point and from "
              "it");
-  visit.rule(!scenario.hosts || takes_processor_time(scenario.dds), hosts_key,
-             "no such key, or a DDS profile with implementation: fastdds and no Discovery Server");
+  needs_receptions(!scenario.hosts, hosts_key, "no such key");
 
   const LargestPacket packet = largest_packet(scenario);
   visit.rule(scenario.wireless.kind == ServiceKind::constant_delay ||

@@ -120,8 +120,9 @@ TEST(FleetKeys, ProcessorsAreAProfileByName) {
   EXPECT_EQ(scenario->hosts->cores, 4U);
   const std::vector<std::string> changed{"hosts=raspberry-pi-4", "hosts.cores=1"};
   EXPECT_EQ(read("  hosts: 2\n" + per_host, "", "fastdds-2.6.11", changed)->hosts->cores, 1U);
-  EXPECT_FALSE(read("  hosts: 2\n" + per_host, "", "cyclonedds-0.10", set));
-  EXPECT_FALSE(read("  hosts: 2\n" + per_host, "", "fastdds-server-2.6.11", set));
+  EXPECT_TRUE(read("  hosts: 2\n" + per_host, "", "cyclonedds-0.10", set));
+  EXPECT_TRUE(read("  hosts: 2\n" + per_host, "", "fastdds-server-2.6.11", set));
+  EXPECT_FALSE(read("  hosts: 2\n" + per_host, "", "paper", set));
   EXPECT_FALSE(read("  hosts: 2\n" + per_host)->hosts);
 }
 
