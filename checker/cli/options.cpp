@@ -197,7 +197,9 @@ void Options::from_environment() {
 
 Option Options::captures(std::vector<std::string>& files, bool required) {
   const Option option =
-      texts("captures", files, "pcap or pcapng, plain, .xz or .gz; several of one run are merged",
+      texts("captures", files,
+            "pcap or pcapng, plain, .xz or .gz, - from standard input; several of one run are "
+            "merged",
             "FILE");
   return required ? option.required() : option;
 }

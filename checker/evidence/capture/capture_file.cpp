@@ -5,12 +5,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 
 #include <fmt/core.h>
 #include <pcap.h>
 
 #include "checker/evidence/capture/decompress.hpp"
+#include "checker/evidence/capture/input_stream.hpp"
 #include "checker/evidence/capture/link_layer.hpp"
 
 namespace stormproof::capture {
@@ -19,11 +19,6 @@ namespace {
 
 using model::config::InputError;
 using model::config::Result;
-
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, FileCloser>;
 
 /// The rest of a file, which has to fit below the limit.
 Result<std::vector<std::uint8_t>, std::string> read_all(std::FILE* file, std::size_t limit) {
@@ -76,25 +71,14 @@ Result<CaptureFile> CaptureFile::from_memory(std::string name, Bytes content, st
 }
 
 Result<CaptureFile> CaptureFile::open(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (std::filesystem::is_directory(status)) {
-    return InputError{path, "is a directory; expected a file"};
-  }
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    return InputError{path, "not a regular file; expected a capture (pcap or pcapng)"};
-  }
-  File file{std::fopen(path.c_str(), "rb")};
-  if (!file) return InputError{path, std::strerror(errno)};
-  std::array<std::uint8_t, 6> start{};
-  const std::size_t length = std::fread(start.data(), 1, start.size(), file.get());
-  std::rewind(file.get());
-  if (compression_of({start.data(), length}) == Compression::none) {
+  auto stream = open_stream(path);
+  if (!stream) return stream.error();
+  if (compression_of(stream->first_bytes()) == Compression::none) {
     CaptureFile plain;
     plain.name_ = path;
-    return over(std::move(plain), file.release());
+    return over(std::move(plain), stream->file.release());
   }
-  const auto content = read_all(file.get(), unpack_limit);
+  const auto content = read_all(stream->file.get(), unpack_limit);
   if (!content) return InputError{path, content.error()};
   return from_memory(path, *content, unpack_limit);
 }

@@ -1,7 +1,9 @@
 // From capture files to the list of events: reads, merges, orders by time, and finds out for whom
 // each datagram was.
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <string_view>
 
 #include <fmt/core.h>
@@ -13,6 +15,7 @@
 #include "checker/evidence/capture/link_layer.hpp"
 #include "checker/evidence/capture/merge.hpp"
 #include "checker/evidence/capture/message_events.hpp"
+#include "checker/evidence/capture/repeated_packets.hpp"
 
 namespace stormproof::capture {
 
@@ -25,7 +28,8 @@ using model::config::Result;
 struct Reading {
   std::vector<CaptureInfo> captures{};
   std::vector<DatagramRecord> datagrams{};
-  std::vector<Sighting> sightings{};  ///< one for each datagram
+  std::vector<Sighting> sightings{};  ///< one for each datagram, of several captures
+  bool is_alone = false;              ///< one capture: nothing to merge
   Extraction extraction{};
   Remarks remarks{};
   std::uint64_t packets = 0;
@@ -42,6 +46,9 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
   if (!message) return;
   ++info.datagrams;
   ++info.sources[datagram.source.address];
+  if (datagram.destination.address.is_multicast()) {
+    ++info.multicast_sources[datagram.source.address];
+  }
   reading.datagrams.push_back({.time_ns = datagram.time_ns,
                                .capture = capture,
                                .packet = datagram.packet,
@@ -50,8 +57,10 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
                                .payload_bytes = static_cast<std::uint32_t>(datagram.payload.size()),
                                .statistics_bytes = message->statistics_bytes,
                                .vendor = message->vendor,
+                               .time_to_live = datagram.time_to_live,
                                .source = datagram.source,
                                .destination = datagram.destination});
+  if (reading.is_alone) return;
   reading.sightings.push_back({datagram.time_ns, capture, datagram.source, datagram.destination,
                                datagram.ip_id, datagram.payload.size(),
                                digest_of(datagram.payload)});
@@ -78,25 +87,71 @@ bool is_of_zenoh(Bytes packet) {
       content.begin() + static_cast<std::ptrdiff_t>(std::min(rtps.size(), content.size())));
 }
 
+/// The datagram that this frame completes, if it is not one that was there before.
+std::optional<Datagram> datagram_in(const Packet& packet, CaptureFile& file,
+                                    RepeatedPackets& repeated, IpReassembly& reassembly,
+                                    Remarks& remarks) {
+  const auto ip = ip_packet(packet.bytes, file.link_type());
+  if (!ip) return std::nullopt;
+  const auto remark = [&](const char* what) {
+    remarks.add(what, fmt::format("{}, packet {}", file.name(), packet.number));
+  };
+  if (repeated.was_there(packet.time_ns, packet.bytes, *ip)) {
+    remark("packets that passed several of the captured interfaces, seen once");
+    return std::nullopt;
+  }
+  if (is_of_zenoh(*ip)) remark("packets of Zenoh, which is no RTPS");
+  return reassembly.add(packet, *ip);
+}
+
+/// Whether the time of a packet is far from those around it: a stamp that is damaged or forged. A
+/// second one that agrees with it makes a new time of it.
+class Clock {
+ public:
+  bool is_wrong(std::int64_t time_ns) {
+    if (last_ == never || is_near(time_ns, last_) || is_near(time_ns, doubtful_)) {
+      last_ = time_ns;
+      doubtful_ = never;
+      return false;
+    }
+    doubtful_ = time_ns;
+    return true;
+  }
+
+ private:
+  static constexpr std::int64_t never = -1;
+
+  static bool is_near(std::int64_t time_ns, std::int64_t other) {
+    constexpr std::int64_t day_ns = 86'400'000'000'000;
+    return other != never && std::abs(time_ns - other) <= day_ns;
+  }
+
+  std::int64_t last_ = never;
+  std::int64_t doubtful_ = never;
+};
+
 /// False if the reading was interrupted.
 bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress) {
   constexpr std::uint64_t packets_between_reports = 4096;
   reading.captures.push_back({.name = file.name()});
   IpReassembly reassembly{file.name(), reading.remarks};
+  RepeatedPackets repeated{file.link_type()};
+  Clock clock;
   bool goes_on = true;
   while (goes_on) {
     const auto packet = file.next();
     if (!packet) break;
     ++reading.captures.back().packets;
+    if (clock.is_wrong(packet->time_ns)) {
+      reading.remarks.add(
+          "packets whose time is more than a day from that of the one before, left "
+          "out",
+          fmt::format("{}, packet {}", file.name(), packet->number));
+      continue;
+    }
     reading.first_ns = std::min(reading.first_ns, packet->time_ns);
     reading.last_ns = std::max(reading.last_ns, packet->time_ns);
-    const auto ip = ip_packet(packet->bytes, file.link_type());
-    if (ip && is_of_zenoh(*ip)) {
-      reading.remarks.add(
-          "packets of Zenoh, which is no RTPS",
-          fmt::format("{}, packet {}", file.name(), reading.captures.back().packets));
-    }
-    const auto datagram = ip ? reassembly.add(*packet, *ip) : std::nullopt;
+    const auto datagram = datagram_in(*packet, file, repeated, reassembly, reading.remarks);
     if (datagram) add_datagram(*datagram, reading);
     if (++reading.packets % packets_between_reports == 0 && progress) {
       goes_on = progress(reading.packets);
@@ -149,31 +204,42 @@ TopologyBuilder describe(const Reading& reading, const std::vector<std::size_t>&
   return builder;
 }
 
-/// Copies the events of the datagrams that count, with their destinations.
-void fill(Conversation& conversation, Reading& reading, const std::vector<std::size_t>& order,
-          const TopologyBuilder& builder) {
-  const auto& events = reading.extraction.events;
+/// Takes the datagrams that count, and their events, in the order of time. If they are in order and
+/// all count, nothing is copied: a large capture is in memory once.
+void fill(Conversation& conversation, Reading& reading, const std::vector<std::size_t>& order) {
+  std::vector<Event>& events = reading.extraction.events;
+  const bool is_all = order.size() == reading.datagrams.size();
+  if (is_all && std::ranges::is_sorted(order)) {
+    conversation.datagrams = std::move(reading.datagrams);
+    conversation.events = std::move(events);
+    return;
+  }
   std::vector<std::size_t> first_event(reading.datagrams.size() + 1, 0);
   for (const Event& event : events) ++first_event[event.datagram + 1];
   std::partial_sum(first_event.begin(), first_event.end(), first_event.begin());
-  std::map<GuidPrefix, std::size_t> host;
-  for (const Participant& one : conversation.topology.participants) host[one.prefix] = one.host;
   for (const std::size_t k : order) {
     const auto number = static_cast<std::uint32_t>(conversation.datagrams.size());
-    const DatagramRecord& datagram = reading.datagrams[k];
-    conversation.datagrams.push_back(datagram);
+    conversation.datagrams.push_back(reading.datagrams[k]);
     for (std::size_t e = first_event[k]; e < first_event[k + 1]; ++e) {
-      Event event = events[e];
-      event.datagram = number;
-      if (!event.destination && !event.is_multicast) {
-        event.destination = builder.receiver(datagram.destination, datagram.time_ns);
-      }
-      if (event.destination && conversation.topology.hosts > 1) {
-        const auto from = host.find(event.source);
-        const auto to = host.find(*event.destination);
-        event.is_same_host = from != host.end() && to != host.end() && from->second == to->second;
-      }
-      conversation.events.push_back(std::move(event));
+      conversation.events.push_back(std::move(events[e]));
+      conversation.events.back().datagram = number;
+    }
+  }
+}
+
+/// Finds out for whom each event is, and whether that stays on one host.
+void address(Conversation& conversation, const TopologyBuilder& builder) {
+  std::map<GuidPrefix, std::size_t> host;
+  for (const Participant& one : conversation.topology.participants) host[one.prefix] = one.host;
+  for (Event& event : conversation.events) {
+    const DatagramRecord& datagram = conversation.datagrams[event.datagram];
+    if (!event.destination && !event.is_multicast) {
+      event.destination = builder.receiver(datagram.destination, datagram.time_ns);
+    }
+    if (event.destination && conversation.topology.hosts > 1) {
+      const auto from = host.find(event.source);
+      const auto to = host.find(*event.destination);
+      event.is_same_host = from != host.end() && to != host.end() && from->second == to->second;
     }
   }
 }
@@ -191,7 +257,8 @@ Result<Conversation> converse(Reading reading) {
   const std::vector<std::size_t> order = ordered(reading);
   const TopologyBuilder builder = describe(reading, order);
   conversation.topology = builder.build();
-  fill(conversation, reading, order, builder);
+  fill(conversation, reading, order);
+  address(conversation, builder);
   conversation.captures = std::move(reading.captures);
   conversation.remarks = reading.remarks.list();
   conversation.first_ns = reading.first_ns;
@@ -204,6 +271,7 @@ Result<Conversation> converse(Reading reading) {
 Result<Conversation> read_conversation(std::span<const std::string> files,
                                        const Progress& progress) {
   Reading reading;
+  reading.is_alone = files.size() == 1;
   for (const std::string& path : files) {
     auto file = CaptureFile::open(path);
     if (!file) return file.error();
@@ -214,6 +282,7 @@ Result<Conversation> read_conversation(std::span<const std::string> files,
 
 Result<Conversation> read_conversation(std::span<const MemoryCapture> captures) {
   Reading reading;
+  reading.is_alone = captures.size() == 1;
   for (const MemoryCapture& capture : captures) {
     auto file = CaptureFile::from_memory(capture.name, capture.content, capture.unpack_limit);
     if (!file) return file.error();

@@ -25,6 +25,13 @@ void describe(V& v, const LookupFigures& figures) {
   v("data_bytes", figures.data_bytes);
 }
 
+template <class V>
+void describe(V& v, const Remark& remark) {
+  v("what", remark.what);
+  v("count", remark.count);
+  v("first_place", remark.first);
+}
+
 /// What asks for types, and answers.
 struct Lookups {
   const Counting& counting;

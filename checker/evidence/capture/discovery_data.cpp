@@ -87,6 +87,12 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
       case ParameterId::participant_guid:
         if (const auto found = guid(parameter->value)) participant.prefix = found->prefix;
         break;
+      case ParameterId::participant_lease:
+        participant.lease_ns = duration_ns(Cursor{parameter->value, parameters->order()});
+        break;
+      case ParameterId::domain:
+        participant.domain = Cursor{parameter->value, parameters->order()}.u32();
+        break;
       case ParameterId::vendor:
         participant.vendor = Cursor{parameter->value}.u16();
         break;
@@ -118,7 +124,6 @@ std::optional<ParticipantData> participant_data(const DataSubmessage& data) {
 }
 
 std::optional<EndpointData> endpoint_data(const DataSubmessage& data, ByteOrder order) {
-  constexpr std::uint32_t reliable = 2;
   EndpointData endpoint;
   read_inline_qos(data, order, endpoint);
   if (data.payload.empty()) return endpoint;
@@ -141,10 +146,8 @@ std::optional<EndpointData> endpoint_data(const DataSubmessage& data, ByteOrder 
       case ParameterId::type_information:
         endpoint.has_type_information = true;
         break;
-      case ParameterId::reliability:
-        endpoint.is_reliable = Cursor{parameter->value, parameters->order()}.u32() == reliable;
-        break;
       default:
+        read_qos(*parameter, parameters->order(), endpoint.qos);
         break;
     }
   }

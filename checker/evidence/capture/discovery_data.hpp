@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/address.hpp"
+#include "checker/evidence/capture/endpoint_qos.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
 
@@ -25,6 +26,8 @@ struct ParticipantData {
   std::string version{};  ///< of its library, as far as DATA(p) shows it
   /// By which Fast DDS from 3.2 on decides who is on one host (PID_MACHINE_ID); empty if not sent.
   std::string machine{};
+  std::optional<std::uint32_t> domain{};  ///< if it says one
+  std::optional<std::int64_t> lease_ns{};
 };
 
 /// DATA(w) or DATA(r).
@@ -32,7 +35,7 @@ struct EndpointData {
   std::optional<Guid> endpoint{};
   std::string topic{};
   std::string type{};
-  std::optional<bool> is_reliable{};
+  EndpointQos qos{};
   bool has_type_information = false;  ///< hashes by which its type can be looked up
   bool is_gone = false;               ///< disposed or unregistered
 };

@@ -98,6 +98,7 @@ struct DatagramRecord {
   std::uint32_t payload_bytes = 0;     ///< of UDP
   std::uint32_t statistics_bytes = 0;  ///< of these, for statistics of the vendor
   VendorId vendor = 0;                 ///< of the message's header
+  std::uint8_t time_to_live = 0;       ///< as captured; 0: it does not leave its host
   UdpEnd source{};
   UdpEnd destination{};
 };
@@ -108,6 +109,7 @@ struct CaptureInfo {
   std::uint64_t datagrams = 0;  ///< with an RTPS message
   std::uint64_t merged = 0;     ///< of these, known from another capture and left out
   std::map<Address, std::uint64_t> sources{};  ///< where the datagrams came from, merged ones too
+  std::map<Address, std::uint64_t> multicast_sources{};  ///< of those to a group
 };
 
 struct Conversation {

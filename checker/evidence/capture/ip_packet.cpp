@@ -18,7 +18,7 @@ std::optional<IpPacket> parse_v4(Bytes bytes) {
   IpPacket packet;
   packet.id = cursor.u16();
   const std::uint16_t fragment = cursor.u16();
-  cursor.skip(1);
+  packet.time_to_live = cursor.u8();
   packet.protocol = cursor.u8();
   cursor.skip(2);
   packet.source = Address::from(cursor.take(4));
@@ -71,7 +71,7 @@ std::optional<IpPacket> parse_v6(Bytes bytes) {
   const std::size_t length = cursor.u16();
   IpPacket packet;
   packet.protocol = cursor.u8();
-  cursor.skip(1);
+  packet.time_to_live = cursor.u8();
   packet.source = Address::from(cursor.take(16));
   packet.destination = Address::from(cursor.take(16));
   if (cursor.failed()) return std::nullopt;

@@ -15,6 +15,7 @@ struct IpPacket {
   Address destination{};
   std::uint32_t id = 0;  ///< the identification that fragments share; 0 in IPv6 without them
   std::uint8_t protocol = 0;
+  std::uint8_t time_to_live = 0;
   std::size_t offset = 0;  ///< of the payload in its datagram, in bytes
   bool more = false;       ///< fragments follow this one
   bool is_cut = false;     ///< the header promises more bytes than were captured

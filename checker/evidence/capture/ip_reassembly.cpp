@@ -117,6 +117,7 @@ std::optional<Datagram> IpReassembly::udp(const Packet& packet, const IpPacket& 
   datagram.time_ns = packet.time_ns;
   datagram.packet = packet.number;
   datagram.ip_id = ip.id;
+  datagram.time_to_live = ip.time_to_live;
   datagram.source = {ip.source, source_port};
   datagram.destination = {ip.destination, destination_port};
   datagram.payload = part(bytes, udp_header, length - udp_header);

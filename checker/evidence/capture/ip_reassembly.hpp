@@ -24,6 +24,7 @@ struct Datagram {
   std::uint32_t frames = 0;      ///< packets it came in
   std::uint64_t wire_bytes = 0;  ///< of all its frames, with link headers
   std::uint32_t ip_id = 0;
+  std::uint8_t time_to_live = 0;
   UdpEnd source{};
   UdpEnd destination{};
   Bytes payload{};  ///< valid until the next packet

@@ -82,6 +82,8 @@ void TopologyBuilder::saw_participant(const GuidPrefix& source, const Participan
   if (data.vendor) participant.vendor = *data.vendor;
   if (!data.name.empty()) participant.name = data.name;
   if (!data.version.empty()) participant.version = data.version;
+  if (data.lease_ns) participant.lease_ns = data.lease_ns;
+  if (data.domain) participant.domain = data.domain;
   if (!data.machine.empty()) participant.machine = data.machine;
   if (!data.discovery.empty()) participant.discovery = data.discovery;
   for (const UdpEnd& locator : data.metatraffic_unicast) {
@@ -114,7 +116,7 @@ void TopologyBuilder::saw_endpoint(const GuidPrefix& source, EntityId sedp_write
   if (!data.topic.empty()) endpoint.topic = data.topic;
   if (!data.type.empty()) endpoint.type = data.type;
   endpoint.has_type_information = data.has_type_information;
-  if (data.is_reliable) endpoint.is_reliable = data.is_reliable;
+  if (!data.is_gone) endpoint.qos = data.qos;
 }
 
 std::optional<GuidPrefix> TopologyBuilder::receiver(const UdpEnd& locator,

@@ -24,7 +24,7 @@ struct Endpoint {
   std::int64_t first_ns = 0;         ///< when the first description was sent
   std::string topic{};
   std::string type{};
-  std::optional<bool> is_reliable{};
+  EndpointQos qos{};
   bool has_type_information = false;  ///< who does not know its type can look it up
   bool is_gone = false;
 };
@@ -36,6 +36,8 @@ struct Participant {
   std::string version{};    ///< of its library, as far as DATA(p) shows it; may be empty
   std::string name{};
   std::string machine{};  ///< the identity of its machine, of Fast DDS from 3.2 on; may be empty
+  std::optional<std::uint32_t> domain{};   ///< as it says in DATA(p)
+  std::optional<std::int64_t> lease_ns{};  ///< the same
   std::size_t host = 0;
   /// When its first message was sent; if there is none, when a Discovery Server told of it first.
   std::int64_t first_ns = 0;

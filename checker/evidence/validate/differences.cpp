@@ -122,7 +122,7 @@ void Finder::control_relations() {
     std::map<std::string, std::uint64_t> result;
     for (const auto& [guid, endpoint] : captured(one).endpoints) {
       const bool counts = endpoint.announced_by == writer && !endpoint.is_gone &&
-                          endpoint.is_reliable.value_or(true) &&
+                          endpoint.qos.is_reliable.value_or(true) &&
                           endpoint.first_ns <= observation_.cut_ns;
       if (counts) ++result[endpoint.topic];
     }

@@ -46,13 +46,6 @@ void describe(V& v, const SizeFigures& figures) {
   v("single_payload_bytes", figures.single);
 }
 
-template <class V>
-void describe(V& v, const Remark& remark) {
-  v("what", remark.what);
-  v("count", remark.count);
-  v("first_place", remark.first);
-}
-
 namespace {
 
 struct NamedEndpoint {
@@ -67,7 +60,7 @@ void describe(V& v, const NamedEndpoint& one) {
   v("sequence_number", one.endpoint.sequence_number);
   v("topic", one.endpoint.topic);
   v("type", one.endpoint.type);
-  v("reliable", one.endpoint.is_reliable);
+  v("reliable", one.endpoint.qos.is_reliable);
   v("type_information", one.endpoint.has_type_information);
   v("gone", one.endpoint.is_gone);
   v("first_ns", one.endpoint.first_ns);

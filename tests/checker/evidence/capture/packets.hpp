@@ -75,7 +75,7 @@ class Message {
 struct Route {
   UdpEnd source{};
   UdpEnd destination{};
-  std::uint32_t id = 1;
+  std::uint32_t id = 0;  ///< 0: none, so that equal packets are different ones
 };
 /// 10.0.0.`host`:`port`.
 [[nodiscard]] UdpEnd at(std::uint8_t host, std::uint16_t port);

@@ -52,7 +52,7 @@ TEST(WriteContents, EndpointsAreThoseOfARosNodeAndTheUsers) {
   std::multiset<std::string> topics;
   const Participant& first = conversation.topology.participants.front();
   for (const auto& [guid, endpoint] : first.endpoints) {
-    EXPECT_EQ(endpoint.is_reliable, true);
+    EXPECT_EQ(endpoint.qos.is_reliable, true);
     EXPECT_EQ(guid.entity & 0xffU,
               endpoint.announced_by == entity::publications_writer ? 0x03U : 0x04U);
     topics.insert(endpoint.topic + " " + endpoint.type);
