@@ -29,6 +29,9 @@ struct Limits {
   std::optional<Ratio> amplification;     ///< messages over those of the failure-free reference
   std::optional<std::uint64_t>
       backlog;  ///< packets that wait for the source queue of one participant
+  // What a storm is (checker/engines/exact/storm.hpp); nothing else is judged by these two.
+  std::optional<Ratio> needless = {};    ///< needless traffic over everything sent once
+  std::optional<Nanoseconds> late = {};  ///< time that discovery takes from the last start on
 
   [[nodiscard]] bool any() const { return completion || messages || amplification || backlog; }
   bool operator==(const Limits&) const = default;

@@ -103,6 +103,8 @@ struct RunResult {
   std::vector<MissingDescriptor> missing;  ///< the first `missing_listed` of them
   std::uint64_t useful_deliveries = 0;     ///< descriptors received for the first time
   std::uint64_t duplicate_deliveries = 0;  ///< descriptors received again
+  std::uint64_t repairs_received = 0;      ///< packets of repair DATA
+  std::uint64_t useful_repairs = 0;        ///< of these, those that brought a missing descriptor
   std::vector<ChannelUse> channels;        ///< empty with constant delay
   std::vector<BacklogPeak> backlog;        ///< by participant
   std::vector<Waiting> waiting;  ///< by participant, if it can: `sender: stalls`, processors

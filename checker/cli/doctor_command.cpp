@@ -136,8 +136,8 @@ void declare_doctor(Frame& frame) {
   frame.add<DoctorArguments>(
       {"doctor",
        "What is wrong with the discovery in a capture, why, and what to change",
-       "Exit code: 0 healthy, 1 a storm or incomplete, 3 it cannot be told, or interrupted;\n"
-       "2 bad input.",
+       "Exit code: 0 healthy, 1 a storm, incomplete or unmatched, 3 it cannot be told, or\n"
+       "interrupted; 2 bad input.",
        Formats::pages,
        {doctor::json_schema}},
       declare, run);

@@ -12,6 +12,7 @@ namespace stormproof::cli {
       return established;
     case doctor::Health::storm:
     case doctor::Health::incomplete:
+    case doctor::Health::unmatched:
       return violated;
     case doctor::Health::unknown:
       break;

@@ -122,7 +122,8 @@ void declare_watch(Frame& frame) {
   frame.add<WatchArguments>(
       {"watch",
        "The counts of discovery on an interface, once a second; q leaves",
-       "Exit code: 0 healthy, 1 a storm or incomplete, 3 it cannot be told; 2 bad input.",
+       "Exit code: 0 healthy, 1 a storm, incomplete or unmatched, 3 it cannot be told;\n"
+       "2 bad input.",
        Formats::pages,
        {doctor::json_schema}},
       declare, run);

@@ -264,7 +264,7 @@ void Network::handle(const Event& event) {
         run_.probe->received(flights_[event.subject].packet, event.detail);
       }
       if (processors_ != nullptr) processors_->receive(flights_[event.subject].packet);
-      implementation_->received(flights_[event.subject].packet, event.detail);
+      hand_over(flights_[event.subject].packet, event.detail);
       release(event.subject);
       break;
     default:
@@ -324,10 +324,21 @@ void Network::arrive(std::uint32_t slot) {
       note_journey(flight);
       if (run_.who_hears(Report::received) != nullptr)
         run_.probe->received(flight.packet, Probe::everybody);
-      implementation_->received(flight.packet, 0);
+      hand_over(flight.packet, 0);
     }
   }
   release(slot);
+}
+
+void Network::hand_over(const Packet& packet, std::uint32_t receiver) {
+  const bool stays = !packet.multicast() && !run_.topology.pair(packet.pair).cross_host;
+  if (traffic_class(packet) != TrafficClass::repair_data || stays) {
+    return implementation_->received(packet, receiver);
+  }
+  const std::uint64_t before = run_.useful_deliveries;
+  implementation_->received(packet, receiver);
+  ++repairs_received_;
+  if (run_.useful_deliveries > before) ++useful_repairs_;
 }
 
 /// One reception event for each participant that the packet reaches over the network.
@@ -458,6 +469,8 @@ void Network::report(RunResult& result) const {
     if (processors_ != nullptr) waiting.thread = processors_->waited(i);
   }
   result.latency = latency_;
+  result.repairs_received = repairs_received_;
+  result.useful_repairs = useful_repairs_;
   // Where types are looked up, an answer that another packet brings may complete discovery.
   const bool is_known = last_arrival_ && !run_.scenario.deployment.types;
   if (!result.completed() || !is_known) return;

@@ -160,6 +160,8 @@ class Network {
   [[nodiscard]] PacketDelay delay_of(std::uint64_t number) const;
   [[nodiscard]] bool is_lost(std::uint64_t number) const;
   void note_latency(const InFlight& flight, Nanoseconds received);
+  /// To the protocol, noting whether a repair brings anything.
+  void hand_over(const Packet& packet, std::uint32_t receiver);
   void note_stall(std::uint32_t participant);
   void note_journey(const InFlight& flight);
 
@@ -202,6 +204,8 @@ class Network {
   std::uint64_t next_packet_ = 0;
   std::uint64_t next_request_ = 0;
   std::array<Latency, traffic_class_count> latency_{};
+  std::uint64_t repairs_received_ = 0;
+  std::uint64_t useful_repairs_ = 0;
   std::optional<LastDelivery> last_arrival_;  // of the packet being received
 };
 

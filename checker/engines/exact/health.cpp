@@ -2,11 +2,12 @@
 #include "checker/engines/exact/health.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include <fmt/core.h>
 
 #include "checker/presentation/text/numbers.hpp"
-#include "model/implementations.hpp"
 #include "model/life.hpp"
 #include "model/reference.hpp"
 #include "model/simulator.hpp"
@@ -14,6 +15,7 @@
 namespace stormproof::exact {
 
 using model::Nanoseconds;
+using model::TrafficClass;
 
 namespace {
 
@@ -22,13 +24,49 @@ bool has_failures(const model::Deployment& deployment) {
   return life && !(life->mute.empty() && life->outages.empty() && life->restarts.empty());
 }
 
-/// Airtime of all channels.
-double used(const model::RunResult& result) {
-  double sum = 0;
+/// What the classes of the run took: airtime of all channels, or messages where there is none.
+std::array<double, model::traffic_class_count> used(const model::RunResult& result) {
+  std::array<double, model::traffic_class_count> sum{};
   for (const model::ChannelUse& channel : result.channels) {
-    sum += static_cast<double>(channel.total_busy().count());
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] += static_cast<double>(channel.busy[k].count());
+    }
   }
+  if (!result.channels.empty()) return sum;
+  const auto put = [&](TrafficClass one, std::uint64_t messages) {
+    sum[static_cast<std::size_t>(one)] = static_cast<double>(messages);
+  };
+  put(TrafficClass::spdp, result.counts.spdp() + result.counts.of_server());
+  put(TrafficClass::initial_data, result.counts.initial_data);
+  put(TrafficClass::repair_data, result.counts.repair_data);
+  put(TrafficClass::heartbeat, result.counts.heartbeat);
+  put(TrafficClass::acknack, result.counts.acknack);
+  put(TrafficClass::user_control, result.user_control);
+  put(TrafficClass::lookup, result.counts.lookup);
   return sum;
+}
+
+Sent sent_in(const model::Scenario& scenario, const model::RunResult& result) {
+  const auto sums = used(result);
+  const auto of = [&](TrafficClass one) { return sums[static_cast<std::size_t>(one)]; };
+  const model::Counts& counts = result.counts;
+  const model::Counts needed = model::failure_free_reference(scenario);
+  const auto part = [](std::uint64_t once, std::uint64_t messages) {
+    return part_of(static_cast<double>(once), static_cast<double>(messages));
+  };
+  Sent sent;
+  sent.initial_data = of(TrafficClass::initial_data);
+  sent.repair_data = of(TrafficClass::repair_data);
+  if (result.repairs_received > 0) {
+    sent.needed_repairs = part(result.useful_repairs, result.repairs_received);
+  }
+  sent.heartbeats = {of(TrafficClass::heartbeat), part(needed.heartbeat, counts.heartbeat)};
+  sent.acknacks = {of(TrafficClass::acknack), part(needed.acknack, counts.acknack)};
+  sent.announcements = {of(TrafficClass::spdp), part(needed.spdp() + needed.of_server(),
+                                                     counts.spdp() + counts.of_server())};
+  sent.lookups = of(TrafficClass::lookup);
+  sent.user_control = of(TrafficClass::user_control);
+  return sent;
 }
 
 double busiest(const model::RunResult& result) {
@@ -41,16 +79,16 @@ double busiest(const model::RunResult& result) {
 }
 
 /// Beside the limit of the scenario, if it sets one; otherwise by what people wait for.
-bool is_late(const RunHealth& run, const std::optional<model::Limits>& limits) {
+bool is_slow(const RunHealth& run, const std::optional<model::Limits>& limits) {
   if (limits && limits->completion) return *run.completion > *limits->completion;
-  return run.took > late;
+  return run.took > late_limit(limits);
 }
 
-Health judged(const RunHealth& run, const std::optional<model::Limits>& limits) {
-  const bool too_late = !run.completion || is_late(run, limits);
-  if (is_storm({run.airtime, run.stretch, run.messages, too_late})) return Health::storm;
+Health judged(const RunHealth& run, const Expense& took,
+              const std::optional<model::Limits>& limits) {
+  if (is_storm(took, limits)) return Health::storm;
   if (!run.completion) return Health::incomplete;
-  if (!is_late(run, limits)) return Health::fine;
+  if (!is_slow(run, limits)) return Health::fine;
   return run.busy >= 0.5 ? Health::slow_link : Health::waiting;
 }
 
@@ -112,17 +150,16 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
   run.took = std::max(end - run.last_start, Nanoseconds{});
   run.busy = busiest(result);
   if (const auto once = model::open_loop_airtime(scenario); once && once->count() > 0) {
-    const auto airtime = static_cast<double>(once->count());
-    run.airtime = used(result) / airtime;
-    run.stretch = static_cast<double>(run.took.count()) / airtime;
+    run.stretch = static_cast<double>(run.took.count()) / static_cast<double>(once->count());
   }
-  if (!model::traits_of(scenario.dds).has_open_loop) {
-    // What a server relays is not sent once, so there is no open loop to compare with; nor is
-    // there one of Cyclone DDS.
-    const auto needed = model::failure_free_reference(scenario).total();
-    run.messages = static_cast<double>(result.counts.total()) / static_cast<double>(needed);
+  const Expense took = expense_of(sent_in(scenario, result),
+                                  !run.completion || run.took > late_limit(scenario.limits));
+  run.needless = took.ratio();
+  if (!result.channels.empty() && took.once > 0) {
+    const auto sums = used(result);
+    run.airtime = std::accumulate(sums.begin(), sums.end(), 0.0) / took.once;
   }
-  run.health = judged(run, scenario.limits);
+  run.health = judged(run, took, scenario.limits);
   return run;
 }
 
@@ -166,14 +203,10 @@ std::string Outlook::sentence() const {
                                     : "discovery is not complete " + after_last_start(run);
   switch (run.health) {
     case Health::storm:
-      if (run.messages) {
-        return text + fmt::format("; it takes {} the messages of a run without failures",
-                                  report::ratio(*run.messages, 1));
-      }
       return text + fmt::format(
-                        "; repeats and control messages take {} the airtime of everything "
-                        "sent once",
-                        report::ratio(*run.airtime, 1));
+                        "; needless repeats and the control traffic that they cause take {} the "
+                        "airtime of everything sent once",
+                        report::ratio(run.needless, 1));
     case Health::slow_link:
       return text +
              fmt::format("; the channel is busy {} of the time", report::percent(run.busy, 1));

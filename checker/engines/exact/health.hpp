@@ -1,6 +1,6 @@
 // What kind of discovery a run was, in one word that an engineer acts on. A storm is told from a
 // slow link by what feedback costs (storm.hpp): on a slow link everything is sent about once and
-// that takes its time; in a storm repeats and the control messages about them take the channel.
+// that takes its time; in a storm needless repeats and control messages take the channel.
 #pragma once
 
 #include <cstdint>
@@ -36,11 +36,9 @@ struct RunHealth {
   /// From then on to T_disc, or to the end of a run that is not complete; 0 if discovery was
   /// complete before.
   model::Nanoseconds took;
+  double needless = 0;            ///< traffic until then, over everything sent once (storm.hpp)
   std::optional<double> airtime;  ///< used until then, over that of everything sent once
-  std::optional<double> stretch;  ///< `took` over the airtime of everything sent once
-  /// With a Discovery Server, or Cyclone DDS, in place of these two: messages over those of a run
-  /// without failures.
-  std::optional<double> messages;
+  std::optional<double> stretch;  ///< `took` over the airtime of the open loop
   double busy = 0;            ///< share of the time that the busiest channel was in use, 0 … 1
   std::uint64_t missing = 0;  ///< deliveries
 };

@@ -21,6 +21,7 @@ void describe(V& v, const RunHealth& run) {
   v("t_disc_ns", run.completion);
   v("last_start_ns", run.last_start);
   v("since_last_start_ns", run.took);
+  v("needless_ratio", run.needless);
   v("airtime_ratio", run.airtime);
   v("closed_to_open_loop", run.stretch);
   v("busy_share", run.busy);

@@ -1,50 +1,71 @@
 // What a discovery storm is: the one definition that every verb asks which uses the word, be it
-// about a simulated run, many of them, or a capture. The feedback takes several times what it costs
-// to send everything once, and it decides when discovery is complete. How that is told depends on
-// what is known:
+// about a simulated run, many of them, or a capture. Two things make one, both together:
 //
-// * a run of a model that has an open loop knows both in time: the airtime that was used, and how
-//   long it took, each over the airtime of everything sent once;
-// * where there is no open loop (a Discovery Server, Cyclone DDS) or no airtime (a capture shows
-//   messages, and not how long the channel took for them) messages stand for airtime, over those of
-//   a discovery without failures. They say nothing of time, so discovery has to be late as well:
-//   not complete, or later than people wait for.
+// * Needless repeats and the control traffic that they cause take more airtime than everything sent
+//   once by the same writer. A repeat is needless if nobody lacked what it brought. HEARTBEATs and
+//   ACKNACKs beyond those that everything takes once are shared out among first sendings and
+//   repeats; a share of them goes with the needless ones. Lookups of types are needless as a whole:
+//   discovery needs none if types are not propagated. Traffic of control-only relations is among
+//   everything sent once. Without needless traffic there is no storm, however busy a channel is.
+// * Discovery is not complete, or late: it takes longer from the last start (or failure) on than
+//   people wait for.
 //
-// What is less is no storm. From twice the messages on it is amplified: nobody has to act, and
-// settings would help.
+// Both numbers are limits of a scenario (limits.needless, limits.late). Where airtime is not known
+// messages stand for it. What is less is no storm; from twice the messages of a discovery without
+// failures on it is amplified: nobody has to act, and settings would help.
 #pragma once
 
 #include <optional>
+#include <string>
 
+#include "model/limits.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::exact {
 
-/// A storm takes at least so many times what is sent once.
-inline constexpr double storm_factor = 3;
 /// Messages over those of a discovery without failures from which on it is amplified.
 inline constexpr double amplified_factor = 2;
-/// Discovery that takes longer than this, counted from the last start, is late, unless the
-/// scenario's limits.completion says otherwise.
-inline constexpr model::Nanoseconds late{1'000'000'000};
 
-/// What a discovery took, as multiples of what it takes if nothing is sent twice. Either the first
-/// two or the third are known.
-struct Expense {
-  std::optional<double> airtime;   ///< used, over that of everything sent once
-  std::optional<double> stretch;   ///< the time it took, over the same
-  std::optional<double> messages;  ///< over those of a discovery without failures
-  bool is_late = false;            ///< not complete, or later than people wait for
+/// Needless traffic over everything sent once that a storm has more of.
+[[nodiscard]] double needless_limit(const std::optional<model::Limits>& limits);
+/// Discovery that takes longer, counted from the last start, is late.
+[[nodiscard]] model::Nanoseconds late_limit(const std::optional<model::Limits>& limits);
+
+/// One kind of traffic: what was sent, in the unit of all of them, and which part of it discovery
+/// takes if everything is sent once.
+struct Traffic {
+  double sent = 0;
+  double once = 1;  ///< 0 … 1
+};
+/// The part of `sent` messages that `needed` ones are.
+[[nodiscard]] double part_of(double needed, double sent);
+
+/// What was sent until discovery was complete: airtime, or messages where it is not known.
+struct Sent {
+  double initial_data = 0;
+  double repair_data = 0;
+  double needed_repairs = 1;  ///< 0 … 1: the part of the repairs that brought what was lacking
+  Traffic heartbeats, acknacks, announcements;
+  double lookups = 0;       ///< of types, and their control
+  double user_control = 0;  ///< of control-only relations
 };
 
-[[nodiscard]] constexpr bool is_storm(const Expense& took) {
-  if (took.airtime && took.stretch) {
-    return *took.airtime >= storm_factor && *took.stretch >= storm_factor;
-  }
-  return took.is_late && took.messages.value_or(0) >= storm_factor;
-}
-[[nodiscard]] constexpr bool is_amplified(const Expense& took) {
-  return took.messages.value_or(0) > amplified_factor;
-}
+/// What a discovery took.
+struct Expense {
+  double once = 0;      ///< everything sent once
+  double needless = 0;  ///< repeats that nobody lacked, and the control traffic that they cause
+  bool is_late = false;
+
+  /// Needless traffic over everything sent once.
+  [[nodiscard]] double ratio() const { return once > 0 ? needless / once : 0; }
+};
+[[nodiscard]] Expense expense_of(const Sent& sent, bool is_late);
+
+[[nodiscard]] bool is_storm(const Expense& took, const std::optional<model::Limits>& limits);
+/// `messages` over those of a discovery without failures.
+[[nodiscard]] constexpr bool is_amplified(double messages) { return messages > amplified_factor; }
+
+/// The definition with its two numbers, for people: what stands in every answer that says STORM.
+[[nodiscard]] std::string storm_definition(const std::optional<model::Limits>& limits);
 
 }  // namespace stormproof::exact

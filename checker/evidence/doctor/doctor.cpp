@@ -8,9 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "checker/engines/exact/storm.hpp"
 #include "checker/evidence/doctor/advise.hpp"
+#include "checker/evidence/doctor/expense.hpp"
+#include "checker/evidence/doctor/reasons/reasons.hpp"
 #include "checker/presentation/text/plain_text.hpp"
+#include "model/config/scenario_file.hpp"
 
 namespace stormproof::doctor {
 
@@ -123,34 +125,24 @@ std::vector<Heard> who_heard_whom(const Conversation& conversation) {
   return heard;
 }
 
-/// What the capture shows of it: messages, those that look up types among them; and when the last
-/// descriptor was sent first, or the last type was asked for or told, without which nothing
-/// matches.
-exact::Expense expense_of(const Report& report, bool is_incomplete) {
-  std::int64_t last_start_ns = report.conversation.first_ns;
-  for (const capture::Participant& one : report.conversation.topology.participants) {
-    last_start_ns = std::max(last_start_ns, one.first_ns);
-  }
-  const std::int64_t end_ns = std::max(report.counting.last_initial_ns.value_or(last_start_ns),
-                                       report.counting.last_lookup_ns.value_or(last_start_ns));
-  exact::Expense took;
-  took.is_late = is_incomplete || end_ns - last_start_ns > exact::late.count();
-  took.messages = static_cast<double>(report.messages() + report.counting.lookup_messages()) /
-                  static_cast<double>(std::max<std::uint64_t>(report.failure_free.total(), 1));
-  return took;
-}
-
-void judge(Report& report) {
+void judge(Report& report, const model::WirelessProfile* channel) {
   const capture::Topology& topology = report.conversation.topology;
   const bool has_keys = report.counting.required > 0;
   const bool began_late = report.there_before > 0 && report.missing + report.known_before > 0;
   const bool is_incomplete = report.missing > 0 && !began_late;
   if (has_keys) {
-    const exact::Expense took = expense_of(report, is_incomplete);
-    report.storm = exact::is_storm(took);
-    report.amplified = exact::is_amplified(took);
+    report.took = expense_of(report.conversation, report.counting, report.failure_free,
+                             is_incomplete, channel);
+    report.storm = exact::is_storm(report.took, std::nullopt);
+    report.amplified = exact::is_amplified(
+        static_cast<double>(report.messages() + report.counting.lookup_messages()) /
+        static_cast<double>(std::max<std::uint64_t>(report.failure_free.total(), 1)));
   }
-  if (topology.participants.size() < 2) {
+  const bool do_not_match = std::ranges::any_of(
+      report.reasons, [](const Reason& one) { return one.id.starts_with("unequal_"); });
+  if (report.what_keeps_apart() != nullptr) {
+    report.health = Health::incomplete;
+  } else if (topology.participants.size() < 2) {
     report.why_unknown = fmt::format("the capture shows {}; discovery takes two",
                                      report::plural(topology.participants.size(), "participant"));
   } else if (!has_keys && !report.machines.empty()) {
@@ -168,7 +160,7 @@ void judge(Report& report) {
         fmt::format("the capture began when {} had begun, so it does not show what was sent before",
                     report::plural(report.there_before, "participant"));
   } else {
-    report.health = Health::healthy;
+    report.health = do_not_match ? Health::unmatched : Health::healthy;
   }
 }
 
@@ -182,13 +174,22 @@ const char* name_of(Health health) {
       return "storm";
     case Health::incomplete:
       return "incomplete";
+    case Health::unmatched:
+      return "unmatched";
     case Health::unknown:
       return "unknown";
   }
   return "";
 }
 
-Report examine(const Conversation& conversation, std::int64_t until_ns) {
+const Reason* Report::what_keeps_apart() const {
+  const auto found = std::ranges::find_if(
+      reasons, [](const Reason& one) { return one.keeps_apart && one.probability >= 0.5; });
+  return found == reasons.end() ? nullptr : &*found;
+}
+
+Report examine(const Conversation& conversation, std::int64_t until_ns,
+               const model::WirelessProfile* channel) {
   Report report{conversation};
   report.counting = capture::count(conversation, until_ns);
   const capture::Counting& counting = report.counting;
@@ -205,7 +206,8 @@ Report examine(const Conversation& conversation, std::int64_t until_ns) {
   report.lookups_prevail = counting.lookup_messages() > report.messages();
   report.types = capture::unknown_types(conversation.topology);
   report.machines = one_machines(conversation.topology);
-  judge(report);
+  report.reasons = reasons(Contacts{conversation, counting});
+  judge(report, channel);
   report.causes = causes(conversation, counting, report.failure_free);
   report.heard = who_heard_whom(conversation);
   report.no_advice = "it was not asked for";
@@ -213,12 +215,21 @@ Report examine(const Conversation& conversation, std::int64_t until_ns) {
 }
 
 Result<Report> diagnose(const Conversation& conversation, const Request& request) {
-  Report report = examine(conversation, request.until_ns);
+  std::optional<model::WirelessProfile> channel;
+  if (!request.wireless.empty()) {
+    auto named = model::config::read_wireless_profile(request.wireless, {},
+                                                      model::config::SpecPath::standard());
+    if (!named) return named.error();
+    channel = *std::move(named);
+  }
+  Report report = examine(conversation, request.until_ns, channel ? &*channel : nullptr);
   if (report.products.empty()) return report;
   const std::vector<std::string> profiles = profiles_of(report.products.front());
   find_presets(profiles, request, report);
   if (report.health == Health::healthy && !report.amplified) {
     report.no_advice = "nothing has to change";
+  } else if (report.what_keeps_apart() != nullptr || report.health == Health::unmatched) {
+    report.no_advice = "no setting of discovery helps against this";
   } else if (report.health == Health::unknown) {
     report.no_advice = report.why_unknown;
   } else if (report.counting.required == 0) {

@@ -10,13 +10,16 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "checker/engines/exact/storm.hpp"
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/unknown_types.hpp"
+#include "checker/evidence/doctor/reasons/reason.hpp"
 #include "checker/evidence/doctor/symptoms.hpp"
 #include "checker/presentation/document/document.hpp"
 #include "checker/presentation/json/schema_form.hpp"
 #include "model/config/tree/result.hpp"
+#include "model/wireless_profile.hpp"
 
 namespace stormproof::doctor {
 
@@ -34,8 +37,9 @@ struct Request {
 
 enum class Health : std::uint8_t {
   healthy,
-  storm,       ///< `exact::is_storm`, lookups included, and nobody lacks a descriptor
-  incomplete,  ///< somebody lacks a descriptor
+  storm,       ///< `exact::is_storm`, and nobody lacks a descriptor
+  incomplete,  ///< somebody lacks a descriptor, or is not discovered at all
+  unmatched,   ///< everybody was told everything, and endpoints of some topic do not match
   unknown
 };
 [[nodiscard]] const char* name_of(Health health);
@@ -84,12 +88,14 @@ struct Report {
   const capture::Conversation& conversation;
   capture::Counting counting{};
   Health health = Health::unknown;
+  exact::Expense took{};   ///< until everybody had everything
   bool storm = false;      ///< `exact::is_storm`, whether it is complete or not
   bool amplified = false;  ///< `exact::is_amplified`: settings would help
   /// Questions about types, answers and what they are acknowledged with are more than all else.
   bool lookups_prevail = false;
   capture::UnknownTypes types{};
   std::vector<OneMachine> machines{};  ///< identities that several hosts have
+  std::vector<Reason> reasons{};       ///< why they do not see each other, as they were decided
   std::string why_unknown{};
   std::vector<Product> products{};     ///< that of the most participants first
   std::vector<std::string> presets{};  ///< that explain every message; may be empty
@@ -113,6 +119,8 @@ struct Report {
   std::optional<Advice> without_lookups{};
   bool interrupted = false;
 
+  /// The first that keeps participants apart and is more likely than not; null if there is none.
+  [[nodiscard]] const Reason* what_keeps_apart() const;
   [[nodiscard]] bool complete() const { return missing == 0 && counting.required > 0; }
   /// A storm that would be none without them.
   [[nodiscard]] bool lookup_storm() const { return storm && lookups_prevail; }
@@ -122,9 +130,10 @@ struct Report {
   }
 };
 
-/// What the capture alone says: no preset, no advice.
+/// What the capture alone says: no preset, no advice. Without a channel messages stand for airtime.
 [[nodiscard]] Report examine(const capture::Conversation& conversation,
-                             std::int64_t until_ns = INT64_MAX);
+                             std::int64_t until_ns = INT64_MAX,
+                             const model::WirelessProfile* channel = nullptr);
 
 /// All of it. An error if the request names an unknown profile.
 [[nodiscard]] model::config::Result<Report> diagnose(const capture::Conversation& conversation,

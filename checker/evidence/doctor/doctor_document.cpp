@@ -6,6 +6,7 @@
 
 #include "checker/evidence/capture/summary.hpp"
 #include "checker/evidence/doctor/doctor.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -52,6 +53,12 @@ std::string lookups(const Report& report) {
                      grouped(report.counting.lookup_messages()));
 }
 
+std::string first_mismatch(const Report& report) {
+  const auto found = std::ranges::find_if(
+      report.reasons, [](const Reason& one) { return one.id.starts_with("unequal_"); });
+  return found == report.reasons.end() ? "" : found->sentence;
+}
+
 std::string answer(const Report& report) {
   const std::string sent = fmt::format("{} messages, {} what a discovery without failures needs",
                                        grouped(report.messages()), amplification(report));
@@ -59,9 +66,19 @@ std::string answer(const Report& report) {
     case Health::healthy:
       return fmt::format("HEALTHY: {}, with {}{}.", completeness(report), lookups(report), sent);
     case Health::storm:
-      return fmt::format("{}: {}{}; {}.", report.lookup_storm() ? "LOOKUP STORM" : "STORM",
-                         lookups(report), sent, completeness(report));
+      return fmt::format(
+          "{}: {}{}; needless repeats and the control traffic that they cause take "
+          "{} what everything sent once takes; {}.",
+          report.lookup_storm() ? "LOOKUP STORM" : "STORM", lookups(report), sent,
+          report::ratio(report.took.ratio(), 1), completeness(report));
+    case Health::unmatched:
+      return fmt::format("DISCOVERED, AND NOT MATCHED: {}. {}, with {}.", first_mismatch(report),
+                         completeness(report), sent);
     case Health::incomplete:
+      if (const Reason* apart = report.what_keeps_apart()) {
+        return fmt::format("INCOMPLETE{}: {}.", apart->probability < 1 ? ", probably" : "",
+                           apart->sentence);
+      }
       if (report.counting.required == 0) {
         return fmt::format(
             "INCOMPLETE: nothing but announcements was sent, by {} with the identity of one "
@@ -82,6 +99,7 @@ Tone tone_of(Health health) {
       return Tone::good;
     case Health::storm:
     case Health::incomplete:
+    case Health::unmatched:
       return Tone::bad;
     case Health::unknown:
       break;
@@ -175,6 +193,29 @@ Section why(const Report& report) {
                                cause.remedy + (cause.remedy.empty() ? "" : ".")}});
   }
   return {"Why", "causes", {std::move(table)}};
+}
+
+/// Each reason with how sure it is, and what to do.
+Section why_apart(const Report& report) {
+  Table table{{{"reason"},
+               {"probability", to_the_right},
+               {"what the capture shows, and what to do", {}, true}},
+              {}};
+  for (const Reason& one : report.reasons) {
+    table.rows.push_back({{one.id, report::percent(one.probability, 1),
+                           fmt::format("{}. To do: {}.", one.sentence, one.remedy)}});
+  }
+  return {"Why they do not see each other", "reasons", {std::move(table)}};
+}
+
+/// What was strange in the capture: damaged, cut, forged, or not to be looked into.
+Section left_out(const Report& report) {
+  report::Bullets list;
+  for (const capture::Remark& one : report.conversation.remarks) {
+    list.items.emplace_back(
+        fmt::format("{}: {} (first: {})", one.what, grouped(one.count), one.first));
+  }
+  return {"What is strange in the capture", "remarks", {std::move(list)}};
 }
 
 Section what_to_change(const Report& report) {
@@ -279,7 +320,10 @@ report::Document document_of(const Report& report, const Request& request) {
   }
   const capture::Summary summary{report.conversation, report.counting};
   document.blocks.emplace_back(who(report));
+  if (!report.reasons.empty()) document.blocks.emplace_back(why_apart(report));
+  if (!report.conversation.remarks.empty()) document.blocks.emplace_back(left_out(report));
   document.blocks.emplace_back(messages(report));
+  report::add_definition(document.blocks, report.storm, std::nullopt);
   if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   document.blocks.emplace_back(what_to_change(report));
   if (!report.heard.empty()) document.blocks.emplace_back(heard(report));
@@ -298,6 +342,8 @@ report::Document glance_at(const Report& report, std::int64_t now_ns) {
   document.blocks.emplace_back(who(report));
   const model::Counts last = of_last_second(report, now_ns);
   document.blocks.emplace_back(counts_table(report, &last));
+  report::add_definition(document.blocks, report.storm, std::nullopt);
+  if (!report.reasons.empty()) document.blocks.emplace_back(why_apart(report));
   if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   return document;
 }

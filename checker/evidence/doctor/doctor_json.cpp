@@ -21,6 +21,15 @@ void describe(V& v, const Cause& cause) {
 }
 
 template <class V>
+void describe(V& v, const Reason& reason) {
+  v("id", reason.id);
+  v("probability", reason.probability);
+  v("text", reason.sentence);
+  v("remedy", reason.remedy);
+  v("keeps_apart", reason.keeps_apart);
+}
+
+template <class V>
 void describe(V& v, const Heard::From& from) {
   v("host", from.host);
   v("datagrams", from.datagrams);
@@ -105,6 +114,7 @@ void describe(V& v, const Report& report) {
   v("known_before", report.known_before);
   v("completion_ns", report.completion_ns);
   v("storm", report.storm);
+  v("needless_ratio", report.took.ratio());
   v("lookup_storm", report.lookup_storm());
   v("counts", report.counting.counts);
   v("failure_free", report.failure_free);
@@ -112,7 +122,9 @@ void describe(V& v, const Report& report) {
   v("lookups", capture::Lookups{report.counting});
   v("unknown_types", UnknownTypes{report.types});
   v("same_machine", report.machines);
+  v("reasons", report.reasons);
   v("causes", report.causes);
+  v("remarks", report.conversation.remarks);
   v("heard", report.heard);
   v("prediction", report.basis);
   v("advice", report.advice);

@@ -1,15 +1,15 @@
-// One pass over the events for repairs and silence; the rest is in the counts.
+// One pass over the events for silence; the rest is in the counts.
 #include "checker/evidence/doctor/symptoms.hpp"
 
 #include <algorithm>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "checker/evidence/capture/unknown_types.hpp"
+#include "checker/evidence/doctor/repairs.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -25,78 +25,6 @@ using capture::HeartbeatKind;
 using report::grouped;
 using report::percent;
 using report::plural;
-
-/// What one SEDP writer sent to one reader, and what that reader said of it.
-struct Relation {
-  std::map<std::int64_t, std::int64_t> first_sent{};  ///< by sequence number
-  std::map<std::int64_t, std::int64_t> last_sent{};
-  std::int64_t acknowledged = 0;  ///< everything below
-  std::set<std::int64_t> lost{};  ///< asked for although something later had come
-};
-
-struct Repairs {
-  std::uint64_t acknowledged = 0;  ///< of what the reader had acknowledged
-  std::uint64_t lost = 0;
-  std::uint64_t under_way = 0;
-};
-
-class RepairFinder {
- public:
-  Repairs find(const Conversation& conversation, const Counting& counting) {
-    for (std::size_t k = 0; k < counting.classes.size(); ++k) {
-      const Event& event = conversation.events[k];
-      if (!counting.classes[k] || !event.destination) continue;
-      if (const auto* acknack = event.acknack()) heard(event, *acknack);
-      if (const auto* data = event.data()) sent(event, *data, *counting.classes[k]);
-    }
-    return repairs_;
-  }
-
- private:
-  using Key = std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>;
-
-  void heard(const Event& event, const capture::AcknackEvent& acknack) {
-    Relation& relation = relations_[{*event.destination, event.source, event.writer}];
-    const capture::SequenceNumberSet& missing = acknack.missing;
-    relation.acknowledged = std::max(relation.acknowledged, missing.base);
-    // What lies between two requests was received: the list ends with the last that is missing.
-    std::int64_t received_sent_ns = INT64_MIN;
-    for (std::uint32_t k = missing.num_bits; k-- > 0;) {
-      const std::int64_t number = missing.base + k;
-      if (missing.has(k)) {
-        const auto last = relation.last_sent.find(number);
-        if (last != relation.last_sent.end() && last->second < received_sent_ns) {
-          relation.lost.insert(number);
-        }
-      } else if (const auto first = relation.first_sent.find(number);
-                 first != relation.first_sent.end()) {
-        received_sent_ns = std::max(received_sent_ns, first->second);
-      }
-    }
-  }
-
-  void sent(const Event& event, const capture::DataEvent& data, capture::MessageClass is) {
-    if (is != capture::MessageClass::initial_data && is != capture::MessageClass::repair_data) {
-      return;
-    }
-    Relation& relation = relations_[{event.source, *event.destination, event.writer}];
-    const std::int64_t number = data.sequence_number;
-    if (is == capture::MessageClass::repair_data) {
-      if (number < relation.acknowledged) {
-        ++repairs_.acknowledged;
-      } else if (relation.lost.erase(number) > 0) {
-        ++repairs_.lost;
-      } else {
-        ++repairs_.under_way;
-      }
-    }
-    relation.first_sent.try_emplace(number, event.time_ns);
-    relation.last_sent[number] = event.time_ns;
-  }
-
-  std::map<Key, Relation> relations_;
-  Repairs repairs_;
-};
 
 /// Participants to which much was sent that asks for an answer, and that never answered anybody.
 struct Silence {
@@ -179,9 +107,9 @@ class Diagnosis {
   }
 
   void repairs() {
-    const Repairs found = RepairFinder{}.find(conversation_, counting_);
+    const Repairs found = find_repairs(conversation_, counting_, counting_.until_ns);
     const std::uint64_t all = counting_.counts.repair_data;
-    const std::uint64_t needless = found.acknowledged + found.under_way;
+    const std::uint64_t needless = found.needless();
     std::string sentence = fmt::format(
         "{} of {} repairs ({}) are of DATA that had been sent to this reader before and was still "
         "under way when it asked",
@@ -197,6 +125,12 @@ class Diagnosis {
                     "although it had what was sent later.",
                     grouped(found.lost), grouped(all), percent_of(found.lost, all)),
         "a better link; no setting of discovery");
+    add("forgotten", found.forgotten,
+        fmt::format(
+            "{} of {} repairs ({}) are for readers that had acknowledged the same before and "
+            "begin anew: a lease ended, or a network failed for so long.",
+            grouped(found.forgotten), grouped(all), percent_of(found.forgotten, all)),
+        "a longer lease than the network fails");
   }
 
   void readers_that_ask_again() {

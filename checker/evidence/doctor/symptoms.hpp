@@ -1,11 +1,6 @@
 // Why a captured discovery sends more than it needs: each repeat and each control message that the
-// failure-free count does not have is put down to what the capture shows before it. Nothing here
-// needs a model; the rules are those of the protocol (RTPS 2.5, section 8.4).
-//
-// * A repair of DATA that the reader had acknowledged is needless.
-// * A repair answers a loss if the reader asked for it although it had what was sent later: packets
-//   of one sender arrive in order unless one is lost.
-// * Any other repair was asked for while its DATA was under way, or waited in the sender's queue.
+// failure-free count does not have is put down to what the capture shows before it (repairs:
+// repairs.hpp). Nothing here needs a model; the rules are those of the protocol.
 #pragma once
 
 #include <cstdint>

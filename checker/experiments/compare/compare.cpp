@@ -44,14 +44,13 @@ double value_of(const Sample& run, Figure figure) {
   return 0;
 }
 
-/// Whether a run is what nobody wants: not complete when it has to be, or a storm that is late. A
-/// storm that is over within a second is one, and bothers nobody.
+/// Whether a run is what nobody wants: not complete when it has to be, or a storm.
 bool fails(const Sample& run, const model::Scenario& scenario) {
   if (!run.discovery_time) return true;
   if (scenario.limits && scenario.limits->completion) {
     return *run.discovery_time > *scenario.limits->completion;
   }
-  return run.health.health == exact::Health::storm && run.health.took > exact::late;
+  return run.health.health == exact::Health::storm;
 }
 
 void describe_runs(Cell& cell, const model::Scenario& scenario) {

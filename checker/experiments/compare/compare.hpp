@@ -44,7 +44,7 @@ struct Cell {
   std::size_t completed = 0;
   std::string outcome;     ///< "FINE", "STORM in 4 of 5 runs", …; empty: no runs
   exact::Health health{};  ///< of the middle run; only if there are runs
-  bool breaks = false;     ///< half of the runs storm and are late, or miss the limit
+  bool breaks = false;     ///< half of the runs storm, or miss the limit
   std::string not_run;     ///< why there are no runs; empty: there are
 };
 

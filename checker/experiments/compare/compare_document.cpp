@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "checker/experiments/compare/compare_report.hpp"
-#include "checker/experiments/simulate/tone_of_health.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/figures.hpp"
@@ -203,8 +203,7 @@ class Builder {
       return fmt::format("are not complete after {} (limits.completion)",
                          report::duration(*limits->completion));
     }
-    return fmt::format("storm for more than {}, or are not complete within {}",
-                       report::duration(exact::late), report::duration(report_.limit));
+    return fmt::format("storm, or are not complete within {}", report::duration(report_.limit));
   }
 
   void plots() {
@@ -266,6 +265,14 @@ class Builder {
   }
 
   void how() {
+    const bool storms = std::ranges::any_of(report_.rows, [](const Row& row) {
+      return std::ranges::any_of(row.cells, [](const Cell& cell) {
+        return std::ranges::any_of(cell.runs, [](const trials::Sample& run) {
+          return run.health.health == exact::Health::storm;
+        });
+      });
+    });
+    report::add_definition(document_.blocks, storms, report_.candidates.scenario.limits);
     document_.blocks.emplace_back(Paragraph{
         report_.is_sampled
             ? fmt::format("Run k of every way and size draws its start times from seed {} + k.",

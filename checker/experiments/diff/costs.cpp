@@ -79,6 +79,9 @@ class CostStudy {
     for (const std::size_t point : open) {
       if (answer_.runs[point].size() == 0) continue;
       places.push_back(point);
+      if (places.size() == 1) {
+        answer_.comparison.storm = exact::storm_definition(points_[point].limits);
+      }
       configurations.push_back(judge_.judge(points_[point], answer_.runs[point]));
       runs.push_back(&answer_.runs[point]);
     }

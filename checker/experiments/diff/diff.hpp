@@ -125,7 +125,7 @@ struct Configuration {
   /// Every pair of runs had the same result, in every number that a run has: times, counts, number
   /// of events, delays.
   bool identical_runs = false;
-  /// At least half of the runs are a storm (checker/engines/exact/storm.hpp), or not complete.
+  /// At least half of the runs are a storm (checker/engines/exact/storm.hpp).
   bool storm_before = false, storm_after = false;
 
   [[nodiscard]] const MeasuredChange& operator[](Measure measure) const {
@@ -151,6 +151,7 @@ struct CostComparison {
   std::vector<PooledChange> pooled;           ///< of measures that some configurations leave open
   double confidence = 0;   ///< of each single interval, so that all together have the policy's
   std::size_t wanted = 0;  ///< configurations
+  std::string storm;       ///< what a storm is, by the limits of the first of them
 };
 
 // --- the storm-free margin ----------------------------------------------------------------------

@@ -185,7 +185,8 @@ void add_margin(Blocks& blocks, const DiffReport& report) {
   if (!margin.reason.empty()) {
     facts.rows.emplace_back("judgment", badge_of(margin.judgment) + ": " + margin.reason);
   }
-  blocks.emplace_back(Section{"Storm-free margin", "margin", {std::move(facts)}});
+  blocks.emplace_back(
+      Section{"Storm-free margin", "margin", {std::move(facts), Paragraph{report.costs.storm}}});
 }
 
 void add_blame(Blocks& blocks, const DiffReport& report) {

@@ -28,11 +28,9 @@ bool none_finite(const std::vector<double>& values) {
   return std::ranges::none_of(values, [](double value) { return std::isfinite(value); });
 }
 
-/// Half of the runs are a storm, or not complete.
+/// Half of the runs are a storm.
 bool storms(const std::vector<exact::Health>& runs) {
-  const auto bad = std::ranges::count_if(runs, [](exact::Health run) {
-    return run == exact::Health::storm || run == exact::Health::incomplete;
-  });
+  const auto bad = std::ranges::count(runs, exact::Health::storm);
   return !runs.empty() && 2 * static_cast<std::size_t>(bad) >= runs.size();
 }
 

@@ -7,6 +7,7 @@
 
 #include "checker/experiments/fuzz/fuzz_report.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -298,6 +299,8 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
   add_ranges(document.blocks, report, scenario);
   document.blocks.emplace_back(verdicts(report, context));
   if (!report.runs.empty()) document.blocks.emplace_back(distribution(report));
+  report::add_definition(document.blocks, outlook && outlook->health() == exact::Health::storm,
+                         scenario.limits);
   if (report.incomplete > 0) {
     document.blocks.emplace_back(
         Paragraph{fmt::format("Discovery was not complete at the time limit in {} of {}.",

@@ -87,8 +87,8 @@ void describe_runs(Cell& cell) {
   for (const Sample& run : cell.runs) {
     completion.push_back(statistics::completion_ns(run.discovery_time));
     messages.push_back(static_cast<double>(run.counts.total()));
-    const bool is_storm = run.health.health == exact::Health::storm;
-    if (is_storm || !run.discovery_time) ++cell.storms;
+    if (run.health.health == exact::Health::storm) ++cell.storms;
+    if (!run.discovery_time) ++cell.incomplete;
   }
   cell.completion = statistics::quantiles(std::move(completion));
   cell.messages = statistics::quantiles(std::move(messages));

@@ -48,7 +48,8 @@ struct Cell {
   std::vector<trials::Sample> runs;  ///< in the order of their seeds
   statistics::Quantiles completion;  ///< ns from the first start on
   statistics::Quantiles messages;
-  std::size_t storms = 0;  ///< runs that are one, or are not complete
+  std::size_t storms = 0;      ///< runs that are one
+  std::size_t incomplete = 0;  ///< runs that are not complete, storms among them
 
   [[nodiscard]] bool completes() const { return !runs.empty() && completion.max.has_value(); }
 };

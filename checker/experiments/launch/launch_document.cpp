@@ -5,6 +5,7 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/launch/launch_report.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/charts/plot.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
@@ -37,8 +38,11 @@ std::string range_text(const Cell& cell) {
 }
 
 std::string storms_text(const Cell& cell) {
-  if (cell.storms == 0) return "no storm";
-  return fmt::format("STORM in {} of {} runs", cell.storms, cell.runs.size());
+  std::string text = cell.storms == 0
+                         ? "no storm"
+                         : fmt::format("STORM in {} of {} runs", cell.storms, cell.runs.size());
+  if (cell.incomplete == 0) return text;
+  return text + fmt::format(", not complete in {} of {}", cell.incomplete, cell.runs.size());
 }
 
 /// The spread that takes longest beside what the spread itself takes, with the first setting, if
@@ -60,6 +64,12 @@ const Row* worst_spread(const Report& report) {
     most = excess(row);
   }
   return worst;
+}
+
+bool has_storms(const Report& report) {
+  return std::ranges::any_of(report.rows, [](const Row& row) {
+    return std::ranges::any_of(row.cells, [](const Cell& cell) { return cell.storms > 0; });
+  });
 }
 
 /// "process by process, 100ms apart: after 14.68 s, STORM in 5 of 5 runs".
@@ -207,6 +217,8 @@ report::Document document_of(const Report& report, const Request& request,
   document.blocks.emplace_back(report::Drawing{to_svg(report), ""}, report::Audience::page);
   add_proofs(document.blocks, report);
   add_joins(document.blocks, report);
+  report::add_definition(document.blocks, has_storms(report),
+                         report.settings.front().scenario.limits);
   const std::string words = checker::words_of(request.scenario, request.overrides);
   if (!written.empty()) {
     document.blocks.emplace_back(

@@ -17,6 +17,7 @@ void describe(V& v, const CellOf& shown) {
   v("setting", shown.setting.id);
   v("runs", shown.cell.runs.size());
   v("storms", shown.cell.storms);
+  v("incomplete", shown.cell.incomplete);
   v("t_disc_ns", shown.cell.completion);
   v("messages", shown.cell.messages);
 }

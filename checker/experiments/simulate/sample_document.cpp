@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/simulate/sample_report.hpp"
-#include "checker/experiments/simulate/tone_of_health.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/core.h>
 
 #include "checker/experiments/simulate/simulate_report.hpp"
-#include "checker/experiments/simulate/tone_of_health.hpp"
+#include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -334,6 +334,7 @@ Document document_of(const Simulation& s) {
   document.next = checker::next_steps(s.words, s.scenario, outlook);
   add_limits(document, s);
   Blocks& blocks = document.blocks;
+  add_definition(blocks, outlook.health() == exact::Health::storm, s.scenario.limits);
   blocks.emplace_back(messages(s));
   if (s.result.user_control > 0) {
     blocks.emplace_back(

@@ -20,4 +20,10 @@ namespace stormproof::report {
   return Tone::plain;
 }
 
+/// What a storm is, where the document says that there is one.
+inline void add_definition(Blocks& blocks, bool is_storm,
+                           const std::optional<model::Limits>& limits) {
+  if (is_storm) blocks.emplace_back(Paragraph{exact::storm_definition(limits)});
+}
+
 }  // namespace stormproof::report

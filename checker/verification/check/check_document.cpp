@@ -299,6 +299,9 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
   if (context.gate.outlook != Standing::holds) {
     document.findings.push_back(outlook_finding(report, context));
   }
+  if (report.outlook && report.outlook->health() == exact::Health::storm) {
+    document.blocks.emplace_back(Paragraph{exact::storm_definition(context.scenario.limits)});
+  }
   for (const Standing standing : standings) add_verdicts(document, report, context, standing);
   if (report.frontiers) add_frontiers(document, *report.frontiers);
   add_unmodelled(document, context.scenario.dds, "", &context.places);

@@ -50,8 +50,9 @@ report::Finding outlook_finding(const CheckReport& report, const CheckContext& c
   report::Finding one;
   one.id = context.gate.outlook_id;
   one.group = "stormproof." + context.name;
-  one.statement = one.id == storm_id ? "Discovery is no storm: feedback does not take the channel."
-                                     : std::string{props::find_property(incomplete_id)->statement};
+  one.statement = one.id == storm_id
+                      ? "Discovery is no storm: repeats that nobody lacks do not take the channel."
+                      : std::string{props::find_property(incomplete_id)->statement};
   one.outcome = outcome_of(context.gate.outlook);
   one.word = name_of(context.gate.outlook);
   one.message = report.outlook->headline() + ": " + report.outlook->sentence();

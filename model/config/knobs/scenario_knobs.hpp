@@ -225,6 +225,13 @@ void visit_knobs(auto& visit, Is<Limits> auto& limits) {
   visit.knob("backlog", limits.backlog, count_range(0, 1'000'000'000'000),
              "packets that wait for the source queue of one participant, at most",
              Presence::optional);
+  visit.knob("needless", limits.needless, RatioType{max_amplification},
+             "airtime of needless repeats and of the control traffic that they cause, over that of "
+             "everything sent once: more of it is a storm if discovery is late, too; 1 if absent",
+             Presence::optional);
+  visit.knob("late", limits.late, period_range,
+             "discovery that takes longer from the last start on is late; 1s if absent",
+             Presence::optional);
 }
 
 void visit_knobs(auto& visit, Is<Variation> auto& vary) {

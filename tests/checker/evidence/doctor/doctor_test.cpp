@@ -63,7 +63,8 @@ TEST(Doctor, KnowsVendorVersionAndStormOfEveryShippedCapture) {
     for (const capture::Participant& one : conversation.topology.participants) {
       last_start_ns = std::max(last_start_ns, one.first_ns);
     }
-    const std::int64_t took_ns = *report.counting.last_initial_ns - last_start_ns;
+    // Shipped captures are cut where their sidecars say that discovery was complete.
+    const std::int64_t took_ns = conversation.last_ns - last_start_ns;
     const bool is_storm = sent >= 3 * report.failure_free.total() && took_ns > 1'000'000'000;
     (is_storm ? storms : others) += 1;
     EXPECT_EQ(report.health == Health::storm, is_storm)
@@ -220,15 +221,21 @@ TEST(Doctor, SeesThatACaptureEndsTooEarly) {
 /// What is sent again and again while something is missing is a storm, and what is missing comes
 /// first.
 TEST(Doctor, IncompleteComesBeforeStorm) {
-  const auto whole = shipped("fastdds2611like_pre_ap_np3_ne20_r0");
-  EXPECT_FALSE(diagnosed(whole).storm) << "over after a fifth of a second";
-  const capture::Counting counting = capture::count(whole, INT64_MAX);
-  ASSERT_TRUE(counting.last_initial_ns);
-  const auto most = cut(whole, whole.first_ns, *counting.last_initial_ns - 1);
-  const Report report = diagnosed(most);
-  EXPECT_GT(report.missing, 0U);
-  EXPECT_EQ(report.health, Health::incomplete);
-  EXPECT_TRUE(report.storm) << report.messages() << " of " << report.failure_free.total();
+  EXPECT_FALSE(diagnosed(shipped("fastdds2611like_pre_ap_np3_ne20_r0")).storm)
+      << "over after a fifth of a second";
+  std::size_t both = 0;
+  for (const std::string& name : names()) {
+    const auto whole = shipped(name);
+    if (!examine(whole).storm) continue;
+    const capture::Counting counting = capture::count(whole, INT64_MAX);
+    ASSERT_TRUE(counting.last_initial_ns) << name;
+    const auto most = cut(whole, whole.first_ns, *counting.last_initial_ns - 1);
+    const Report report = examine(most);
+    EXPECT_GT(report.missing, 0U) << name;
+    EXPECT_EQ(report.health, Health::incomplete) << name;
+    if (report.storm) ++both;
+  }
+  EXPECT_GT(both, 0U);
 }
 
 TEST(Doctor, ACaptureThatBeganTooLateIsNoVerdict) {

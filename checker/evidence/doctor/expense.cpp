@@ -1,0 +1,176 @@
+// Each datagram belongs to the class of what it was sent for, as in the model.
+#include "checker/evidence/doctor/expense.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+
+#include "checker/evidence/doctor/repairs.hpp"
+#include "model/airtime.hpp"
+
+namespace stormproof::doctor {
+
+namespace {
+
+using capture::Conversation;
+using capture::Counting;
+using capture::Event;
+using capture::GuidPrefix;
+using model::MessageClass;
+
+/// Kinds of traffic, that which a datagram is sent for first.
+enum class Kind : std::uint8_t {
+  initial_data,
+  announcement,
+  repair_data,
+  heartbeat,
+  acknack,
+  lookup,
+  user_control,
+  other
+};
+constexpr std::size_t kinds = 8;
+using PerKind = std::array<double, kinds>;
+
+Kind kind_of(const Event& event, const std::optional<MessageClass>& is) {
+  if (is) {
+    switch (*is) {
+      case MessageClass::initial_data:
+        return Kind::initial_data;
+      case MessageClass::repair_data:
+        return Kind::repair_data;
+      case MessageClass::heartbeat:
+        return Kind::heartbeat;
+      case MessageClass::acknack:
+        return Kind::acknack;
+      case MessageClass::spdp_multicast:
+      case MessageClass::spdp_unicast:
+        return Kind::announcement;
+    }
+  }
+  if (event.is_same_host) return Kind::other;
+  if (event.traffic() == capture::Traffic::spdp) return Kind::announcement;
+  if (event.traffic() == capture::Traffic::type_lookup) return Kind::lookup;
+  const bool is_control = event.heartbeat() != nullptr || event.acknack() != nullptr;
+  return event.traffic() == capture::Traffic::user && is_control ? Kind::user_control : Kind::other;
+}
+
+/// Messages until `end_ns` by kind; and, if there is a channel, what their datagrams take.
+struct Tally {
+  PerKind messages{};
+  PerKind airtime{};
+
+  Tally(const Conversation& conversation, const Counting& counting, std::int64_t end_ns,
+        const model::WirelessProfile* channel) {
+    std::optional<model::RouteAirtime> route;
+    if (channel != nullptr) route.emplace(*channel);
+    for (std::size_t k = 0; k < counting.classes.size();) {
+      const std::uint32_t number = conversation.events[k].datagram;
+      const capture::DatagramRecord& datagram = conversation.datagrams[number];
+      if (datagram.time_ns > end_ns) break;
+      Kind first = Kind::other;
+      for (; k < counting.classes.size() && conversation.events[k].datagram == number; ++k) {
+        const Kind kind = kind_of(conversation.events[k], counting.classes[k]);
+        ++messages[static_cast<std::size_t>(kind)];
+        first = std::min(first, kind);
+      }
+      if (!route) continue;
+      airtime[static_cast<std::size_t>(first)] += static_cast<double>(
+          route->packet_ns(datagram.payload_bytes, datagram.destination.address.is_multicast()));
+    }
+  }
+};
+
+using ReaderOf = std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>;
+
+/// What was sent last to the readers of each SEDP writer: to one, or to the group.
+class Acknowledgements {
+ public:
+  void sent(const Event& event, const capture::DataEvent& data) {
+    Last& last = event.destination ? to_one_[{event.source, *event.destination, event.writer}]
+                                   : to_all_[{event.source, event.writer}];
+    last.number = std::max(last.number, data.sequence_number);
+    last.time_ns = std::max(last.time_ns, event.time_ns);
+  }
+  void acknowledged(const Event& event, const capture::AcknackEvent& acknack) {
+    const ReaderOf relation{*event.destination, event.source, event.writer};
+    std::int64_t all = 0;
+    if (const auto one = to_one_.find(relation); one != to_one_.end()) all = one->second.number;
+    const auto group = to_all_.find({*event.destination, event.writer});
+    if (group != to_all_.end()) all = std::max(all, group->second.number);
+    if (all > 0 && acknack.missing.base > all) known_.try_emplace(relation, event.time_ns);
+  }
+  [[nodiscard]] std::int64_t all_known_ns() const {
+    std::int64_t last = INT64_MIN;
+    for (const auto& [relation, time_ns] : known_) last = std::max(last, time_ns);
+    for (const auto& [relation, sent] : to_one_) {
+      if (!known_.contains(relation)) last = std::max(last, sent.time_ns);
+    }
+    return last;
+  }
+
+ private:
+  struct Last {
+    std::int64_t number = 0;
+    std::int64_t time_ns = INT64_MIN;
+  };
+  std::map<ReaderOf, Last> to_one_;
+  std::map<std::pair<GuidPrefix, capture::EntityId>, Last> to_all_;
+  std::map<ReaderOf, std::int64_t> known_;
+};
+
+}  // namespace
+
+std::int64_t discovered_ns(const Conversation& conversation, const Counting& counting) {
+  Acknowledgements known;
+  const auto each = [&](const auto& act) {
+    for (std::size_t k = 0; k < counting.classes.size(); ++k) {
+      const Event& event = conversation.events[k];
+      if (counting.classes[k] && event.traffic() == capture::Traffic::sedp) act(event);
+    }
+  };
+  each([&](const Event& event) {
+    if (const auto* data = event.data()) known.sent(event, *data);
+  });
+  each([&](const Event& event) {
+    const auto* acknack = event.acknack();
+    if (acknack != nullptr && event.destination) known.acknowledged(event, *acknack);
+  });
+  return std::max({known.all_known_ns(), counting.last_initial_ns.value_or(INT64_MIN),
+                   counting.last_lookup_ns.value_or(INT64_MIN)});
+}
+
+exact::Expense expense_of(const Conversation& conversation, const Counting& counting,
+                          const model::Counts& failure_free, bool incomplete,
+                          const model::WirelessProfile* channel) {
+  std::int64_t last_start_ns = conversation.first_ns;
+  for (const capture::Participant& one : conversation.topology.participants) {
+    last_start_ns = std::max(last_start_ns, one.first_ns);
+  }
+  const std::int64_t known_ns = discovered_ns(conversation, counting);
+  const std::int64_t end_ns = incomplete ? conversation.last_ns : known_ns;
+  const bool is_late =
+      incomplete || known_ns > last_start_ns + exact::late_limit(std::nullopt).count();
+  const Tally tally{conversation, counting, end_ns, channel};
+  const PerKind& unit = channel != nullptr ? tally.airtime : tally.messages;
+  const auto of = [&](Kind kind) { return unit[static_cast<std::size_t>(kind)]; };
+  const auto part = [&](Kind kind, std::uint64_t needed) {
+    return exact::Traffic{of(kind), exact::part_of(static_cast<double>(needed),
+                                                   tally.messages[static_cast<std::size_t>(kind)])};
+  };
+  const Repairs repairs = find_repairs(conversation, counting, end_ns);
+  exact::Sent sent;
+  sent.initial_data = of(Kind::initial_data);
+  sent.repair_data = of(Kind::repair_data);
+  sent.needed_repairs = exact::part_of(static_cast<double>(repairs.needed()),
+                                       static_cast<double>(repairs.needed() + repairs.needless()));
+  sent.heartbeats = part(Kind::heartbeat, failure_free.heartbeat);
+  sent.acknacks = part(Kind::acknack, failure_free.acknack);
+  sent.announcements = part(Kind::announcement, failure_free.spdp() + failure_free.of_server());
+  sent.lookups = of(Kind::lookup);
+  sent.user_control = of(Kind::user_control);
+  return exact::expense_of(sent, is_late);
+}
+
+}  // namespace stormproof::doctor
