@@ -98,14 +98,16 @@ TEST(CostJudge, RunsThatDoNotComplete) {
   const Configuration neither = judged(pairs);
   EXPECT_EQ(neither[Measure::completion].judgment, Judgment::same);
   EXPECT_FALSE(neither[Measure::completion].reason.empty());
-  EXPECT_TRUE(neither.storm_before);
+  EXPECT_FALSE(neither.storm_before) << "not complete alone is no storm";
 }
 
 TEST(CostJudge, AStormIsOneByTheDefinitionOfRuns) {
   PairedRuns pairs = runs(12, 1e9, 1e9);
   for (std::size_t k = 0; k < 5; ++k) pairs.health_after[k] = exact::Health::storm;
   EXPECT_FALSE(judged(pairs).storm_after);
-  pairs.health_after[7] = exact::Health::incomplete;  // half of them
+  pairs.health_after[7] = exact::Health::incomplete;
+  EXPECT_FALSE(judged(pairs).storm_after);
+  pairs.health_after[7] = exact::Health::storm;  // half of them
   EXPECT_TRUE(judged(pairs).storm_after);
   EXPECT_FALSE(judged(pairs).storm_before);
   pairs.health_before.assign(12, exact::Health::slow_link);

@@ -92,7 +92,7 @@ TEST(Launch, WhatIsNotCompleteInTimeIsNotSoonest) {
   request.time = ms(100);
   const Report report = report_of(request);
   EXPECT_FALSE(report.best());
-  EXPECT_EQ(report.rows.front().cells[0].storms, 3U);
+  EXPECT_EQ(report.rows.front().cells[0].incomplete, 3U);
   EXPECT_NE(to_text(document_of(report, request, {})).find("Under no plan"), std::string::npos);
 }
 
