@@ -70,9 +70,10 @@ enum class MatchOrder : std::uint8_t { endpoints_first, builtin_first };
 /// From which version of Fast DDS on announcements and descriptors have their sizes.
 enum class SizesSince : std::uint8_t { v2_6, v3_2, v3_6 };
 
-/// What `implementation: cyclone` sends by multicast: all that goes to two readers or more, or only
-/// announcements.
-enum class AllowMulticast : std::uint8_t { always, spdp };
+/// What `implementation: cyclone` sends by multicast: all that goes to two readers or more, only
+/// announcements, or what the network is good for: all on a wired one, announcements on Wi-Fi. A
+/// scenario says which of the first two that is.
+enum class AllowMulticast : std::uint8_t { always, spdp, by_network };
 /// A truth value of a profile.
 enum class MergeQueued : std::uint8_t { no, yes };
 
@@ -83,6 +84,9 @@ struct SpdpProfile {
   Nanoseconds startup_period{100'000'000};
   SpdpResend resend = SpdpResend::all_known;
   Bytes payload_bytes{420};
+  /// How long others remember a participant of which they hear nothing; absent: nothing is said. It
+  /// acts in a life alone (`deployment.life`).
+  std::optional<Nanoseconds> lease = {};
   // `implementation: cyclone` only.
   std::uint32_t directed_replies = 4;  ///< to a participant that is recognised
   Nanoseconds directed_reply_interval{1'000'000'000};
@@ -203,6 +207,9 @@ struct DdsProfile {
   ServerProfile server;
   std::uint32_t peer_ports = 4;               ///< of each host, with static peers
   std::optional<Amendments> amendments = {};  ///< `implementation: paper` only
+  /// Participants of a host that find a port or an index; 0: as many as the library's own settings
+  /// let start (`participants_of_a_host`). Not of `implementation: paper`.
+  std::uint32_t max_participants_per_host = 0;
   /// What the described system has and this model has not: the setting, and what it would do. No
   /// run depends on it; every report of a run has to name it as an assumption.
   std::map<std::string, std::string> unmodelled;

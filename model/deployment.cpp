@@ -2,6 +2,7 @@
 #include "model/deployment.hpp"
 
 #include <algorithm>
+#include <map>
 #include <random>
 #include <set>
 
@@ -48,6 +49,15 @@ std::uint32_t Deployment::host_count() const {
   std::set<HostId> hosts;
   for (const Participant& participant : participants) hosts.insert(participant.host);
   return static_cast<std::uint32_t>(hosts.size());
+}
+
+std::uint32_t Deployment::most_on_a_host() const {
+  std::map<HostId, std::uint32_t> counts;
+  std::uint32_t most = 0;
+  for (const Participant& participant : participants) {
+    most = std::max(most, ++counts[participant.host]);
+  }
+  return most;
 }
 
 }  // namespace stormproof::model

@@ -185,6 +185,8 @@ struct Deployment {
   }
   /// Number of different hosts that carry at least one participant.
   [[nodiscard]] std::uint32_t host_count() const;
+  /// Number of participants of the host that has most of them.
+  [[nodiscard]] std::uint32_t most_on_a_host() const;
   /// Whether at least one cross-host pair exists; without one there is nothing to discover.
   [[nodiscard]] bool has_cross_host_pair() const { return host_count() > 1; }
 

@@ -121,6 +121,11 @@ struct ImplementationTraits {
   bool mixes_messages = false;
   /// How long its threads are busy with what, is known (`processor` of a host).
   bool has_processor_times = false;
+  /// How long others remember a participant of which they hear nothing, as the library comes; 0:
+  /// nothing is known of it.
+  Nanoseconds lease{0};
+  /// Participants of a host that find a port as the library comes; 0: all do.
+  std::uint32_t participants_of_a_host = 0;
   /// What everything sent once would be is defined: each descriptor goes to each reader by itself.
   bool has_open_loop = true;
   Writer writer = Writer::of_the_paper;
@@ -183,6 +188,8 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.knows_lives = true;
   traits.has_living_composition = true;
   traits.has_processor_times = true;
+  traits.lease = Nanoseconds{20'000'000'000};  // RTPSParticipantAttributes.h, leaseDuration
+  traits.participants_of_a_host = 101;  // mutation_tries after the first, RTPSParticipantImpl.cpp
   traits.writer = Writer::stateful;
   return traits;
 }
@@ -195,6 +202,7 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.guide = "specs/guide/cyclone.md";
   traits.vendor = vendor::cyclonedds;
   traits.is_known_to_engines = false;
+  traits.lease = Nanoseconds{10'000'000'000};  // ddsi_cfgelems.h, LeaseDuration
   traits.has_own_timers = true;
   traits.answers_newcomers = true;
   traits.has_event_thread = true;
@@ -270,6 +278,16 @@ inline constexpr std::array implementation_traits{
 }
 [[nodiscard]] inline const ImplementationTraits& traits_of(const DdsProfile& dds) {
   return traits_of(kind_of(dds));
+}
+
+/// How long others remember a participant of which they hear nothing; 0: nothing is known of it.
+[[nodiscard]] inline Nanoseconds lease_of(const DdsProfile& dds) {
+  return dds.spdp.lease.value_or(traits_of(dds).lease);
+}
+/// Participants of a host that find a port or an index; 0: as many as there are.
+[[nodiscard]] inline std::uint32_t participants_of_a_host(const DdsProfile& dds) {
+  const std::uint32_t said = dds.max_participants_per_host;
+  return said != 0 ? said : traits_of(dds).participants_of_a_host;
 }
 
 /// Those whose writer engines, monitors and laws know.

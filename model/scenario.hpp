@@ -33,6 +33,21 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
+/// Says what the network is good for where the DDS profile leaves that open: Cyclone DDS sends
+/// everything by multicast where it is not flaky, which it takes Wi-Fi for (q_init.c, mc_flaky in
+/// ddsi_ownip.c). A channel that hosts share counts as Wi-Fi.
+inline void choose_multicast(Scenario& scenario) {
+  if (scenario.dds.allow_multicast != AllowMulticast::by_network) return;
+  const bool is_wired = scenario.wireless.kind == ServiceKind::constant_delay;
+  scenario.dds.allow_multicast = is_wired ? AllowMulticast::always : AllowMulticast::spdp;
+}
+
+/// The lease of the profile is that of a life which says none.
+inline void choose_lease(Scenario& scenario) {
+  std::optional<Life>& life = scenario.deployment.life;
+  if (life && !life->lease) life->lease = scenario.dds.spdp.lease;
+}
+
 /// Whether a seed changes the scenario: start times are drawn, how long participants are deaf, or
 /// transmissions that fail.
 [[nodiscard]] inline bool is_drawn(const Scenario& scenario) {

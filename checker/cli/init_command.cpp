@@ -11,6 +11,7 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/streams.hpp"
 #include "checker/evidence/init/environment.hpp"
+#include "checker/presentation/text/command_line.hpp"
 
 namespace stormproof::cli {
 
@@ -56,7 +57,7 @@ bool asks(const InitArguments& arguments) {
 }
 
 void ask_all(init::System& system) {
-  system.hosts = ask_number("robots and other hosts?", system.hosts);
+  system.hosts = ask_number("robots and other hosts?", system.hosts, 2);
   system.participants = ask_number(
       "processes with ROS 2 nodes on each (a component container is one)?", system.participants);
   system.endpoints = ask_number("publishers and subscriptions of each?", system.endpoints);
@@ -112,7 +113,7 @@ Outcome run(InitArguments& arguments, Session& session) {
     return established;
   }
   arguments.file.stream() << *text;
-  say(fmt::format("stormproof: next: stormproof simulate {}", arguments.file.path()));
+  say("stormproof: next: " + report::command_line({"simulate", arguments.file.path()}));
   return established;
 }
 

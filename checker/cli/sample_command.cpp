@@ -18,10 +18,20 @@ std::optional<model::config::InputError> add_profiles(const SimulateArguments& a
                                                       report::Sampling& sampling) {
   sampling.profiles.push_back({"this scenario", scenario, {}});
   for (const std::string& name : arguments.compare) {
-    const auto dds = model::config::read_dds_profile(name, {}, model::config::SpecPath::standard());
-    if (!dds) return dds.error();
+    std::vector<std::string> changes{"dds=" + name};
+    for (const std::string& given : arguments.overrides) {
+      if (!given.starts_with("dds=") && !given.starts_with("dds.")) changes.push_back(given);
+    }
+    // As a scenario, so that what depends on the profile is right, and a rule between them is kept.
+    auto read = model::config::read_scenario(arguments.scenario, changes,
+                                             model::config::SpecPath::standard());
+    if (!read) {
+      model::config::InputError error = read.error();
+      if (error.where == "--set " + changes.front()) error.where = name;  // that nobody wrote
+      return error;
+    }
     model::Scenario other = scenario;
-    other.dds = *dds;
+    other.dds = read->dds;
     sampling.profiles.push_back({name, std::move(other), {}});
   }
   return std::nullopt;

@@ -44,6 +44,37 @@ Failure change_key(const Override& change, std::string_view prefix, const Node* 
 
 }  // namespace
 
+namespace {
+
+/// Puts in what the preset with a server says and the profile does not.
+Failure complete_with_server(Node* dds, const std::string& preset, const SpecPath& specs) {
+  const Node* way = dds == nullptr || !dds->is_map() ? nullptr : dds->find(discovery_key);
+  if (way == nullptr || (way->text != "server" && way->text != "super_client")) return std::nullopt;
+  const auto name = preset_with(preset, "server", specs);
+  if (!name) return std::nullopt;
+  auto server =
+      resolve_profile(Node::scalar(way->place, *name), SpecKind::dds, specs, Outside::refused);
+  if (!server) return server.error();
+  for (Member& member : server->tree.members) {
+    if (dds->find(member.key) == nullptr) dds->members.push_back(std::move(member));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::string> preset_with(const std::string& preset, std::string_view way,
+                                       const SpecPath& specs) {
+  const std::size_t version = preset.find('-') + 1;
+  const bool has_version =
+      version > 0 && version < preset.size() && preset[version] >= '0' && preset[version] <= '9';
+  if (!has_version) return std::nullopt;
+  const std::string name =
+      fmt::format("{}{}-{}", preset.substr(0, version), way, preset.substr(version));
+  if (!specs.named(SpecKind::dds, name)) return std::nullopt;
+  return name;
+}
+
 bool is_profile_key(std::string_view path) {
   for (const ProfileSlot& slot : profile_slots) {
     if (const auto key = path_below(slot, path)) return *key != base_key;
@@ -82,7 +113,8 @@ Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPat
   return resolved;
 }
 
-Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides) {
+Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides,
+                                   const SpecPath& specs) {
   if (!scenario || !scenario->tree.is_map()) return scenario;
   Node& root = scenario->tree;
   const std::string prefix = fmt::format("{}.", dds_key);
@@ -91,15 +123,23 @@ Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides override
     Failure failure = change_key(change, prefix, root.find(dds_key), root);
     if (failure) return *std::move(failure);
   }
+  if (Failure failure = complete_with_server(root.find(dds_key), scenario->preset, specs)) {
+    return *std::move(failure);
+  }
   return scenario;
 }
 
-Result<Resolved> with_keys(Result<Resolved> profile, SpecKind kind, Overrides overrides) {
+Result<Resolved> with_keys(Result<Resolved> profile, SpecKind kind, Overrides overrides,
+                           const SpecPath& specs) {
   if (!profile) return profile;
   Node& root = profile->tree;
   for (const Override& change : overrides) {
     Failure failure = change_key(change, "", kind == SpecKind::dds ? &root : nullptr, root);
     if (failure) return *std::move(failure);
+  }
+  if (kind != SpecKind::dds) return profile;
+  if (Failure failure = complete_with_server(&root, profile->preset, specs)) {
+    return *std::move(failure);
   }
   return profile;
 }

@@ -24,12 +24,19 @@ using Overrides = std::span<const Override>;
                                              const SpecPath& specs,
                                              std::string_view implementation = {});
 
-/// Then the overrides of profile keys.
-[[nodiscard]] Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides);
+/// The shipped preset of the same version that discovers that way ("fastdds-2.6.11" and "server":
+/// "fastdds-server-2.6.11"); nothing if there is none, or it is one of a way itself.
+[[nodiscard]] std::optional<std::string> preset_with(const std::string& preset,
+                                                     std::string_view way, const SpecPath& specs);
+
+/// Then the overrides of profile keys. Whoever chooses a Discovery Server over a preset without one
+/// has, where he says nothing, what the preset of the same version with one says.
+[[nodiscard]] Result<Resolved> with_profile_keys(Result<Resolved> scenario, Overrides overrides,
+                                                 const SpecPath& specs);
 
 /// The same for a profile alone, in which every override is of one of its keys, without "dds." or
 /// "wireless." in front.
 [[nodiscard]] Result<Resolved> with_keys(Result<Resolved> profile, SpecKind kind,
-                                         Overrides overrides);
+                                         Overrides overrides, const SpecPath& specs);
 
 }  // namespace stormproof::model::config

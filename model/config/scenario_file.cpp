@@ -40,7 +40,8 @@ Result<Traced<Scenario>> scenario_of(const std::string& reference, Result<Node> 
   const auto overrides = parse_overrides(arguments);
   if (!overrides) return overrides.error();
   return traced<Scenario>(
-      reference, with_profile_keys(with_profiles(*std::move(tree), *overrides, specs), *overrides));
+      reference,
+      with_profile_keys(with_profiles(*std::move(tree), *overrides, specs), *overrides, specs));
 }
 
 template <class Profile>
@@ -53,7 +54,7 @@ Result<Traced<Profile>> profile_of(const std::string& reference, SpecKind kind,
   Node name = Node::scalar(place, reference);
   return traced<Profile>(
       reference,
-      with_keys(resolve_profile(std::move(name), kind, specs, outside), kind, *overrides));
+      with_keys(resolve_profile(std::move(name), kind, specs, outside), kind, *overrides, specs));
 }
 
 }  // namespace

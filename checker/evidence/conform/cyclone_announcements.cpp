@@ -105,7 +105,7 @@ class Announcements {
           return !other.destination && (other.time_ns <= one.time_ns || is_near(other));
         }));
     const bool is_one_too_many = ++copies_[*one.destination] > rounds;
-    if (context_.dds.allow_multicast != model::AllowMulticast::spdp || !goes_with_one ||
+    if (context_.dds.allow_multicast == model::AllowMulticast::always || !goes_with_one ||
         is_one_too_many) {
       return fault(one, Fault::announcement_extra,
                    "announcement to one participant, which does not name it",

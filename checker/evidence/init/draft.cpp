@@ -8,8 +8,10 @@
 
 #include "checker/evidence/doctor/advise.hpp"
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/presentation/document/unreached.hpp"
 #include "model/config/distributions.hpp"
 #include "model/config/knobs/effective.hpp"
+#include "model/config/resolve.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
@@ -48,14 +50,13 @@ struct Library {
 Library with_discovery(Library library, const System& system, const SpecPath& specs) {
   if (system.discovery.empty()) return library;
   const bool is_static = system.discovery == "static";
-  std::string preset = library.dds;
-  preset.insert(preset.find('-') + 1, is_static ? "static-" : "server-");
-  const auto names = specs.names(model::config::SpecKind::dds);
-  const bool is_shipped = system.dds.empty() && std::ranges::find(names, preset) != names.end();
-  if (is_shipped) library.dds = preset;
+  const auto preset = system.dds.empty() ? model::config::preset_with(
+                                               library.dds, is_static ? "static" : "server", specs)
+                                         : std::nullopt;
+  if (preset) library.dds = *preset;
   const bool has_usual_ports = system.peer_ports == model::DdsProfile{}.peer_ports;
-  if (is_shipped && system.discovery != "super_client" && has_usual_ports) {
-    library.text = quoted_scalar(preset);
+  if (preset && system.discovery != "super_client" && has_usual_ports) {
+    library.text = quoted_scalar(*preset);
     return library;
   }
   library.text =
@@ -168,6 +169,26 @@ std::string head(const System& system) {
   return text;
 }
 
+/// With a remark on top about participants that some never find.
+std::string with_unreached(const std::string& text, const model::Scenario& scenario) {
+  const std::string remark = report::unreached(scenario);
+  return remark.empty() ? text : comment(remark) + text;
+}
+
+/// What is wrong with the numbers that were given: the draft, of which the error of its reading
+/// speaks, is nothing that anybody has seen.
+InputError about_numbers(const System& system, const InputError& error) {
+  if (!error.where.starts_with("init:")) return error;
+  constexpr std::string_view key = "deployment: expected ";
+  if (!error.message.starts_with(key)) {
+    return {fmt::format("init with {} hosts, {} participants and {} endpoints", system.hosts,
+                        system.participants, system.endpoints),
+            error.message};
+  }
+  return {fmt::format("--participants {}", system.participants),
+          "expected " + error.message.substr(key.size())};
+}
+
 }  // namespace
 
 bool looks_up_types(const System& system, const SpecPath& specs) {
@@ -178,6 +199,11 @@ bool looks_up_types(const System& system, const SpecPath& specs) {
 }
 
 Result<std::string> draft(const System& system, const SpecPath& specs) {
+  if (system.hosts < 2) {
+    return InputError{fmt::format("--hosts {}", system.hosts),
+                      "on a single host nothing crosses the network, so there is no discovery to "
+                      "predict; give the number of robots and other computers, 2 or more"};
+  }
   const auto library = library_of(system, specs);
   if (!library) return library.error();
   const auto dds = model::config::read_dds_profile(library->dds, {}, specs);
@@ -203,13 +229,13 @@ Result<std::string> draft(const System& system, const SpecPath& specs) {
                       quoted_scalar(system.wireless));
   rest += "time_limit: 120s                    # a run that takes longer did not complete\n";
   const auto read = model::config::parse_scenario(text + rest, "init", {}, specs);
-  if (read) return text + rest;
-  if (system.unknown_types || text == before) return read.error();
+  if (read) return with_unreached(text + rest, *read);
+  if (system.unknown_types || text == before) return about_numbers(system, read.error());
   const std::string without =
       before +
       comment("Lookups of types are left out: the model has none where packets are lost.") + rest;
   if (model::config::parse_scenario(without, "init", {}, specs)) return without;
-  return read.error();
+  return about_numbers(system, read.error());
 }
 
 Result<std::string> draft_of_capture(const capture::Conversation& conversation,

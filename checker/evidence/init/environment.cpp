@@ -11,6 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "checker/evidence/init/variables.hpp"
+#include "model/config/tree/tree.hpp"
+#include "model/config/vendor/addresses.hpp"
 
 namespace stormproof::init {
 
@@ -40,6 +42,7 @@ class Environment {
       if (auto error = read(variable)) return error;
     }
     take_file();
+    if (auto error = look_at_addresses()) return error;
     if (auto error = take_range()) return error;
     take_server();
     return std::nullopt;
@@ -103,6 +106,32 @@ class Environment {
       system_.dds = file;
       system_.remarks.push_back(fmt::format("The profile is the file that {} names.", name));
     }
+  }
+
+  /// Addresses that a tutorial has in their place, and what is none, reach nobody.
+  [[nodiscard]] std::optional<InputError> look_at_addresses() const {
+    for (const char* name : {"ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"}) {
+      const std::string list = value(name);
+      bool has_one = false;
+      for (std::size_t at = 0; at <= list.size();) {
+        const std::size_t end = std::min(list.find(';', at), list.size());
+        std::string_view one = model::config::trimmed(std::string_view{list}.substr(at, end - at));
+        at = end + 1;
+        if (one.empty()) continue;  // a server that is left out
+        has_one = true;
+        constexpr std::string_view udp = "UDPv4:[";
+        if (one.starts_with(udp)) {
+          one.remove_prefix(udp.size());
+          one = one.substr(0, one.find(']'));
+        }
+        const std::string why = model::config::vendor::why_no_endpoint(one);
+        if (!why.empty()) return InputError{fmt::format("{}={}", name, list), why};
+      }
+      if (!list.empty() && !has_one) {
+        return InputError{fmt::format("{}={}", name, list), "there is no address in it"};
+      }
+    }
+    return std::nullopt;
   }
 
   [[nodiscard]] static InputError nobody(const std::string& setting) {

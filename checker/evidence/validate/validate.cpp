@@ -91,6 +91,14 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
       quoted_scalar(request.dds), quoted_scalar(request.wireless), time_limit_s);
   auto scenario = model::config::parse_scenario(text, "validate", request.overrides, specs);
   if (!scenario) return scenario.error();
+  // A profile that leaves it to the network has explained a capture without such packets.
+  const auto is_multicast = [](const std::string& set) {
+    return set.starts_with("dds.allow_multicast");
+  };
+  if (dds->allow_multicast == model::AllowMulticast::by_network &&
+      std::ranges::none_of(request.overrides, is_multicast)) {
+    scenario->dds.allow_multicast = model::AllowMulticast::spdp;
+  }
   const bool has_server = model::traits_of(scenario->dds).has_server;
   if (has_server != deployment.server_host.has_value()) {
     return InputError{"--dds", has_server

@@ -152,8 +152,8 @@ std::string limit_text(const Limiting& limiting) {
   const auto percent = [](double share) { return fmt::format("{:.0f} %", 100 * share); };
   const Shares& shares = limiting.median;
   const std::string all = fmt::format(
-      "at the median the air is busy for {} of a run, a sender waits for room for {}, a thread is "
-      "waited for for {}",
+      "at the median the air is busy for {} of a run, a sender waits for room for {}, and packets "
+      "wait for a thread for {}",
       percent(shares.air), percent(shares.sender), percent(shares.processor));
   switch (limiting.limit) {
     case Limit::air:

@@ -9,6 +9,7 @@
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
+#include "model/fastdds/peer_ports.hpp"
 
 namespace stormproof::compare {
 
@@ -175,7 +176,9 @@ class Kitchen {
       return dds;
     };
     const DdsProfile own = plain(all_.scenario.dds);
+    const bool reaches_all = model::fastdds::announcements_reach_all(all_.scenario);
     const auto same = std::ranges::find_if(all_.list, [&](const Candidate& one) {
+      if (one.asks_every_port && !reaches_all) return false;
       return one.skipped.empty() && one.placement == Placement::as_it_is && plain(one.dds) == own;
     });
     if (same != all_.list.end()) {

@@ -52,6 +52,7 @@ class BlameStudy {
     if (!dds) return std::nullopt;
     std::vector<ReviewedPoint> points{point_};
     points.front().candidate.dds = *dds;
+    model::choose_multicast(points.front().candidate);
     std::vector<PairedRuns> runs(1);
     RunSettings settings{request_.first_seed, request_.threads, {}};
     settings.on_progress = [this](std::size_t, std::size_t) {

@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "checker/experiments/diff/diff.hpp"
 #include "checker/experiments/diff/normal_form.hpp"
 #include "model/config/knobs/effective.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::diff {
@@ -70,6 +72,43 @@ model::config::Place place_of(const model::config::TracedProfile& traced, const 
   return found == traced.places.end() ? model::config::Place{} : found->second;
 }
 
+constexpr std::string_view lease_key = "spdp.lease";
+constexpr std::string_view crowd_key = "max_participants_per_host";
+
+/// Whether it acts where somebody leaves, the network fails or a host is crowded.
+bool is_elsewhere(const KnobChange& change) {
+  return change.key == lease_key || change.key == crowd_key;
+}
+
+/// What differs there.
+std::string elsewhere(const model::DdsProfile& base, const model::DdsProfile& candidate) {
+  std::string text;
+  const model::Nanoseconds before = lease_of(base), after = lease_of(candidate);
+  if (before != after && before.count() > 0 && after.count() > 0) {
+    const std::string one = model::config::print_duration(before);
+    const std::string other = model::config::print_duration(after);
+    const bool is_longer = after > before;
+    text = fmt::format(
+        "A participant that leaves without a goodbye stays in the lists of the others, as a ghost, "
+        "for {} after its last packet with the base and for {} with the candidate. Where the "
+        "network fails for longer than {} and shorter than {}, the {} has to recover by a new "
+        "discovery, and with the {} nobody forgets anybody. ",
+        one, other, is_longer ? one : other, is_longer ? other : one,
+        is_longer ? "base" : "candidate", is_longer ? "candidate" : "base");
+  }
+  const auto most = [](const model::DdsProfile& dds) {
+    const std::uint32_t count = participants_of_a_host(dds);
+    return count == 0 ? std::string{"all"} : std::to_string(count);
+  };
+  if (most(base) != most(candidate)) {
+    text += fmt::format(
+        "Of the participants of a host {} start with the base and {} with the "
+        "candidate. ",
+        most(base), most(candidate));
+  }
+  return text;
+}
+
 bool is_unmodelled(const KnobChange& change) { return change.key.starts_with(unmodelled_prefix); }
 
 /// Whether the change can make a difference, and why not.
@@ -79,6 +118,15 @@ void judge(KnobChange& change, const model::DdsProfile& base, const model::DdsPr
     change.modelled = false;
     change.matters = false;
     change.why = "the model has no such setting: what it does to discovery is not known here";
+    return;
+  }
+  if (is_elsewhere(change)) {
+    change.matters = false;
+    const std::string what = elsewhere(base, candidate);
+    change.why = what.empty() ? "it is what the library has anyway"
+                 : change.key == lease_key
+                     ? "a lease acts where somebody leaves or the network fails"
+                     : "it decides how many participants of a host start";
     return;
   }
   const UnreadRule* const before = unread_rule(base, change.key);
@@ -91,13 +139,14 @@ void judge(KnobChange& change, const model::DdsProfile& base, const model::DdsPr
                                   : "";
 }
 
-Relation relation_of(const std::vector<KnobChange>& changes, bool same_runs) {
+Relation relation_of(const std::vector<KnobChange>& changes, bool same_runs,
+                     bool differs_elsewhere) {
   if (!same_runs) return Relation::different;
   if (changes.empty()) return Relation::identical;
   for (const KnobChange& change : changes) {
     if (is_unmodelled(change)) return Relation::unmodelled;
   }
-  return Relation::equivalent;
+  return differs_elsewhere ? Relation::elsewhere : Relation::equivalent;
 }
 
 std::string proof_of(Relation relation) {
@@ -114,6 +163,9 @@ std::string proof_of(Relation relation) {
       return "In the model both profiles have the same run in every deployment and on every "
              "channel: what differs is read by no rule. The real systems may differ, because the "
              "model has not got some of these settings.";
+    case Relation::elsewhere:
+      return "While nobody leaves, the network does not fail and every participant starts, both "
+             "have the same run, event by event: no rule reads what differs. ";
     case Relation::different:
       break;
   }
@@ -141,8 +193,17 @@ Comparison compare_profiles(const model::config::TracedProfile& base,
     judge(change, one, other, same_runs);
     comparison.changes.push_back(std::move(change));
   }
-  comparison.relation = relation_of(comparison.changes, same_runs);
+  const std::string there = elsewhere(one, other);
+  comparison.relation = relation_of(comparison.changes, same_runs, !there.empty());
   comparison.proof = proof_of(comparison.relation);
+  if (comparison.relation == Relation::elsewhere || comparison.relation == Relation::unmodelled) {
+    comparison.proof += (comparison.proof.ends_with(' ') ? "" : " ") + there;
+    if (!there.empty()) {
+      comparison.proof +=
+          "That was not run: a scenario with deployment.life describes who leaves and when the "
+          "network fails.";
+    }
+  }
   return comparison;
 }
 

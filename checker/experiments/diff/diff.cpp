@@ -33,6 +33,9 @@ class DiffStudy {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point started = Clock::now();
     report_.profiles = compare_profiles(request_.base, request_.candidate);
+    if (report_.profiles.relation == Relation::elsewhere && has_lives()) {
+      report_.profiles.relation = Relation::different;
+    }
     if (report_.profiles.relation == Relation::different) {
       if (goes_on()) compare_runs();
       if (goes_on() && request_.check_verdicts) check();
@@ -44,6 +47,13 @@ class DiffStudy {
   }
 
  private:
+  /// Whether somebody may leave in what is compared.
+  [[nodiscard]] bool has_lives() const {
+    return std::ranges::any_of(grid_.points, [](const ReviewedPoint& point) {
+      return point.base.deployment.life.has_value();
+    });
+  }
+
   bool goes_on() const { return !report_.interrupted; }
 
   bool progress(std::string_view what) {

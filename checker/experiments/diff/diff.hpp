@@ -39,6 +39,8 @@ struct KnobChange {
 enum class Relation : std::uint8_t {
   identical,   ///< every knob has the same value
   equivalent,  ///< knobs differ, but none of them is read by the rules that both profiles choose
+  elsewhere,   ///< as one of the above where nobody leaves, the network does not fail and all find
+               ///< a port; what differs acts where that is otherwise
   unmodelled,  ///< as one of the above, but they differ in settings that the model has not
   different
 };
@@ -47,7 +49,7 @@ enum class Relation : std::uint8_t {
 
 struct Comparison {
   Relation relation = Relation::different;
-  std::string proof;  ///< of `identical` and `equivalent`: the argument, one or two sentences
+  std::string proof;                ///< of all but `different`: the argument, some sentences
   std::vector<KnobChange> changes;  ///< in the order of the table
 };
 

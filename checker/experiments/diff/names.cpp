@@ -25,6 +25,8 @@ const char* name_of(Relation relation) {
       return "identical";
     case Relation::equivalent:
       return "equivalent";
+    case Relation::elsewhere:
+      return "elsewhere";
     case Relation::unmodelled:
       return "unmodelled";
     case Relation::different:

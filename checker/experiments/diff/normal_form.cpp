@@ -168,6 +168,8 @@ model::DdsProfile normal_form(const model::DdsProfile& profile) {
   const model::DdsProfile defaults;
   model::DdsProfile normal = with_reduced_fractions(profile);
   normal.unmodelled.clear();
+  normal.spdp.lease.reset();  // what acts elsewhere, see `Relation`
+  normal.max_participants_per_host = 0;
   for (const UnreadRule& rule : rules) {
     if (rule.applies(normal)) rule.set(normal, defaults);
   }

@@ -108,6 +108,10 @@ std::string headline_sentence(const DiffReport& report) {
       return "The profiles are the same. " + report.profiles.proof;
     case Relation::equivalent:
       return "The profiles differ, but no run can tell them apart. " + report.profiles.proof;
+    case Relation::elsewhere:
+      return "No run that was compared can tell the profiles apart; they differ where somebody "
+             "leaves, the network fails, or a host is crowded. " +
+             report.profiles.proof;
     case Relation::unmodelled:
       return "The profiles differ only in settings that the model has not, so nothing is known "
              "about the difference.";

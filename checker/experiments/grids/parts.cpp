@@ -138,14 +138,14 @@ PartReader::Tree PartReader::tree(const Choice& choice, Kind kind) {
     const std::string_view name = model::implementation_traits[implementation].name;
     return config::with_profiles(part_root(choice.variant, kind), overrides, specs_, name);
   };
-  if (kind == Kind::rest) return config::with_profile_keys(chosen(), overrides);
+  if (kind == Kind::rest) return config::with_profile_keys(chosen(), overrides, specs_);
   if (kind != Kind::dds && kind != Kind::wireless) return chosen();
   Memory& memory = memory_[kind];
   Key key = key_of(choice, memory.choosing);
   key.push_back(implementation);
   auto profile = memory.profiles.find(key);
   if (profile == memory.profiles.end()) profile = memory.profiles.emplace(key, chosen()).first;
-  return config::with_profile_keys(profile->second, overrides);
+  return config::with_profile_keys(profile->second, overrides, specs_);
 }
 
 /// A wireless profile can be another one with another implementation.

@@ -65,6 +65,8 @@ model::Scenario Plan::scenario(std::size_t job) const {
   scenario.time_limit = rest.time_limit;
   scenario.run_until = rest.run_until;
   scenario.hosts = rest.hosts;
+  model::choose_multicast(scenario);
+  model::choose_lease(scenario);
   if (grid_->samples) model::draw(scenario, seed(job));
   return scenario;
 }

@@ -206,7 +206,7 @@ class ExhibitReader {
       overrides.push_back({member.key, member.value});
     }
     auto resolved = config::with_profile_keys(
-        config::with_profiles(*root_.find("scenario"), overrides, specs_), overrides);
+        config::with_profiles(*root_.find("scenario"), overrides, specs_), overrides, specs_);
     if (!resolved) {
       failure_ = resolved.error();
       return;

@@ -4,9 +4,11 @@
 
 #include <fmt/core.h>
 
+#include "checker/experiments/simulate/distribution_plot.hpp"
 #include "checker/experiments/simulate/sample_report.hpp"
 #include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/document/unreached.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/verification/check/next_steps.hpp"
@@ -22,7 +24,9 @@ using Print = std::string (*)(double);
 std::string as_time(double ns) { return report::time_figure(ns); }
 std::string as_count(double value) { return report::count_figure(value); }
 
-std::string or_beyond(const std::optional<double>& value, Print print) {
+/// What no run gave is not known; what a run did not come to within its limit is beyond it.
+std::string or_beyond(const Quantiles& q, const std::optional<double>& value, Print print) {
+  if (q.count == 0) return "–";
   return value ? print(*value) : "> limit";
 }
 
@@ -38,8 +42,8 @@ Table distribution(const SampleSummary& s) {
               {}};
   const auto row = [&table](const char* name, const Quantiles& q, Print print) {
     table.rows.push_back(
-        {{name, or_beyond(q.median, print), or_beyond(q.p10, print), or_beyond(q.p90, print),
-          or_beyond(q.min, print), or_beyond(q.max, print)}});
+        {{name, or_beyond(q, q.median, print), or_beyond(q, q.p10, print),
+          or_beyond(q, q.p90, print), or_beyond(q, q.min, print), or_beyond(q, q.max, print)}});
   };
   row("completion", s.discovery_time_ns, as_time);
   for (const model::MessageClass one : model::message_classes) {
@@ -67,7 +71,10 @@ void add_histogram(Blocks& blocks, const std::vector<Sample>& samples) {
     ++count[std::min(bins - 1, static_cast<std::size_t>((time - first) / width))];
   }
   const double most = static_cast<double>(*std::ranges::max_element(count));
-  Table table{{{"runs by completion time"}, number_column("runs"), {""}}, {}};
+  Table table{{{"runs by completion time"},
+               number_column("runs"),
+               {.head = "", .audience = Audience::terminal}},
+              {}};
   for (std::size_t k = 0; k < bins; ++k) {
     const double from = first + width * static_cast<double>(k);
     const auto bar = static_cast<std::size_t>(40 * static_cast<double>(count[k]) / most + 0.5);
@@ -96,10 +103,10 @@ Table side_by_side(const Sampling& sampling) {
   for (const SampledProfile& profile : sampling.profiles) {
     const SampleSummary s = summarize(profile.samples);
     const Quantiles& t = s.discovery_time_ns;
-    const auto count = [](const Quantiles& q) { return or_beyond(q.median, as_count); };
+    const auto count = [](const Quantiles& q) { return or_beyond(q, q.median, as_count); };
     table.rows.push_back({{profile.name, fmt::format("{}/{}", s.completed, s.runs),
-                           fmt::format("{} [{}–{}]", or_beyond(t.median, as_time),
-                                       or_beyond(t.p10, as_time), or_beyond(t.p90, as_time)),
+                           fmt::format("{} [{}–{}]", or_beyond(t, t.median, as_time),
+                                       or_beyond(t, t.p10, as_time), or_beyond(t, t.p90, as_time)),
                            count(s.counts[1]), count(s.counts[2]), count(s.counts[3]),
                            count(s.total), count(s.user_control)}});
   }
@@ -126,6 +133,12 @@ std::string fastest_text(const Sampling& sampling) {
   return text + ".";
 }
 
+std::size_t all_runs(const Sampling& sampling) {
+  std::size_t runs = 0;
+  for (const SampledProfile& one : sampling.profiles) runs += one.samples.size();
+  return runs;
+}
+
 /// What makes a run the one of seed K.
 std::string seeds_of(const model::Scenario& scenario) {
   std::string text;
@@ -150,19 +163,33 @@ Document document_of(const Sampling& sampling) {
       drawn ? fmt::format("{}: {} of {} runs, each with its own schedule", sampling.name,
                           own.samples.size(), sampling.wanted)
             : fmt::format("{}: one run with the start times of the scenario", sampling.name);
-  if (alone) {
-    document.answer = outlook ? outlook->headline() + ": " + outlook->sentence() : "No run ended.";
+  const std::size_t made = all_runs(sampling);
+  const std::size_t asked = sampling.wanted * sampling.profiles.size();
+  const std::string so_far =
+      made < asked ? fmt::format("INTERRUPTED after {} of {} runs. ", made, asked) : std::string{};
+  if (made == 0) {
+    document.answer = so_far;
+  } else if (alone) {
+    document.answer = so_far + outlook->headline() + ": " + outlook->sentence();
     document.elaboration = fmt::format("{} of {} complete within {}.", summary.completed,
                                        summary.runs, duration(own.scenario.time_limit));
-    document.blocks.emplace_back(distribution(summary));
+    if (!own.samples.empty()) document.blocks.emplace_back(distribution(summary));
+    if (std::string svg = distribution_plot(own.samples, own.scenario.time_limit); !svg.empty()) {
+      document.blocks.emplace_back(Drawing{std::move(svg), "The runs by their completion"},
+                                   Audience::page);
+    }
     add_histogram(document.blocks, own.samples);
   } else {
-    document.answer = fastest_text(sampling);
+    document.answer = so_far + fastest_text(sampling);
     document.elaboration = "All profiles run the same start times.";
     document.blocks.emplace_back(side_by_side(sampling));
   }
   for (const SampledProfile& profile : sampling.profiles) {
     document.complete = document.complete && profile.samples.size() == sampling.wanted;
+    if (const std::string text = unreached(profile.scenario); !text.empty()) {
+      document.blocks.emplace_back(
+          Paragraph{alone ? text : fmt::format("{}: {}", profile.name, text), Tone::warn});
+    }
     add_unmodelled(document, profile.scenario.dds, alone ? "" : profile.name);
   }
   const bool all = document.complete && summary.completed == sampling.wanted;

@@ -4,10 +4,12 @@
 
 #include <fmt/core.h>
 
+#include "checker/experiments/simulate/distribution_plot.hpp"
 #include "checker/experiments/simulate/simulate_report.hpp"
 #include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/document/unreached.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/next_steps.hpp"
@@ -167,7 +169,7 @@ void add_channels(Blocks& blocks, const RunResult& result) {
     Table table{{{"channel " + channel.name},
                  {"time", to_right},
                  {"share", to_right},
-                 {fmt::format("busy {} of the time", percent(busy, elapsed))}},
+                 {.head = fmt::format("busy {} of the time", percent(busy, elapsed))}},
                 {}};
     const auto row = [&](const char* name, Nanoseconds time) {
       const double share = elapsed > 0 ? static_cast<double>(time.count()) / elapsed : 0;
@@ -325,14 +327,21 @@ Document document_of(const Simulation& s) {
   if (s.samples.empty()) {
     document.elaboration = elaboration(s);
   } else {
-    document.blocks.emplace_back(
-        Paragraph{fmt::format("What follows is the run with seed {}, which completes after {}. ",
-                              model::own_seed(s.scenario),
-                              s.result.completed() ? duration(*s.result.discovery_time) : "–") +
-                  elaboration(s)});
+    document.blocks.emplace_back(Paragraph{
+        fmt::format("What follows is the run with seed {}, which {}. ", model::own_seed(s.scenario),
+                    s.result.completed() ? "completes after " + duration(*s.result.discovery_time)
+                                         : std::string{"does not complete"}) +
+        elaboration(s)});
   }
   document.next = checker::next_steps(s.words, s.scenario, outlook);
+  if (std::string svg = distribution_plot(s.samples, s.scenario.time_limit); !svg.empty()) {
+    document.blocks.emplace_back(Drawing{std::move(svg), "The runs by their completion"},
+                                 Audience::page);
+  }
   add_limits(document, s);
+  if (const std::string text = unreached(s.scenario); !text.empty()) {
+    document.blocks.emplace_back(Paragraph{text, Tone::warn});
+  }
   Blocks& blocks = document.blocks;
   add_definition(blocks, outlook.health() == exact::Health::storm, s.scenario.limits);
   blocks.emplace_back(messages(s));

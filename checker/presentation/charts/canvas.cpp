@@ -19,7 +19,11 @@ constexpr std::array<std::array<const char*, 2>, color_count> colors{{{"#1f5fbf"
                                                                       {"#5c6773", "#a9b4bf"},
                                                                       {"#007a8a", "#5fd0e0"},
                                                                       {"#786800", "#d9c64a"},
-                                                                      {"#6a3fb5", "#b79cf5"}}};
+                                                                      {"#6a3fb5", "#b79cf5"},
+                                                                      {"#c0242c", "#ff8a8a"},
+                                                                      {"#4f7300", "#a9d45a"},
+                                                                      {"#7a4a2b", "#d3a27f"},
+                                                                      {"#0b2f5c", "#c9dcf2"}}};
 
 constexpr std::string_view classes = R"(
     .chart-title { font-size: 14px; font-weight: 600; }

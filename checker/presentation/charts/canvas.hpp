@@ -31,7 +31,7 @@ struct Area {
 
 inline constexpr int font_size = 12;
 inline constexpr int line_height = 16;
-inline constexpr std::size_t color_count = 8;
+inline constexpr std::size_t color_count = 12;
 
 /// The colours of series and their classes, for draw::Svg::finish.
 [[nodiscard]] std::string palette_style();

@@ -106,7 +106,9 @@ class Drawing {
 
   void draw_reference(const Reference& reference) {
     const auto line = line_of(reference);
-    if (line) svg_.path(polyline_path({line->first, line->second}), "reference");
+    if (!line) return;
+    svg_.path(polyline_path({line->first, line->second}), "reference");
+    strokes_.push_back(*line);
   }
 
   [[nodiscard]] std::optional<Line> line_of(const Reference& reference) const {
@@ -168,7 +170,7 @@ class Drawing {
       const Pixel here = at(one.x[k], one.y[k]);
       Pixel a = before;
       Pixel b = here;
-      if (connected && clip(a, b, area_)) {
+      if (connected && one.mark != Mark::points && one.mark != Mark::crosses && clip(a, b, area_)) {
         strokes_.emplace_back(a, b);
         // One stroke as long as nothing is cut off, so that dashes run through.
         const std::string piece = polyline_path({a, b});
@@ -179,8 +181,14 @@ class Drawing {
       connected = true;
       before = here;
       if (!x_.contains(one.x[k]) || !y_.contains(one.y[k])) continue;
-      marks += mark_path(here, color, one.mark == Mark::points ? 3.2 : 3.5);
+      marks += one.mark == Mark::crosses
+                   ? cross_path(here)
+                   : mark_path(here, color, one.mark == Mark::points ? 3.2 : 3.5);
       ++points;
+    }
+    if (one.mark == Mark::crosses) {
+      if (!marks.empty()) svg_.path(marks, "curve " + stroke_class(color));
+      return;
     }
     if (one.mark != Mark::points && !line.empty()) {
       svg_.path(line,
@@ -189,6 +197,11 @@ class Drawing {
     if ((one.mark == Mark::points || one.mark == Mark::line_and_points) && !marks.empty()) {
       svg_.path(marks, fill_class(color) + (points > 150 ? " many" : ""));
     }
+  }
+
+  static std::string cross_path(Pixel p) {
+    return fmt::format("M{:.1f} {:.1f}l10 10M{:.1f} {:.1f}l-10 10", p.x - 5, p.y - 5, p.x + 5,
+                       p.y - 5);
   }
 
   [[nodiscard]] bool has_spread(const Series& one, std::size_t k) const {
@@ -202,6 +215,7 @@ class Drawing {
       if (!has_spread(one, k)) continue;
       const Pixel low = clamped(one.x[k], one.low[k]);
       const Pixel high = clamped(one.x[k], one.high[k]);
+      strokes_.emplace_back(low, high);
       path += fmt::format("M{:.1f} {:.1f}V{:.1f}M{:.1f} {:.1f}h6M{:.1f} {:.1f}h6", low.x, low.y,
                           high.y, low.x - 3, low.y, low.x - 3, high.y);
     }

@@ -25,7 +25,8 @@ struct Axis {
   std::vector<double> ticks{};
 };
 
-enum class Mark { line, points, line_and_points, dashed_line };
+/// `crosses`: ✗ where something ends, without a line.
+enum class Mark { line, points, line_and_points, dashed_line, crosses };
 /// How `low` and `high` of a series are drawn: as a bar at each point, or as one shaded band.
 enum class Spread { bars, band };
 

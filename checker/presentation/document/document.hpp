@@ -109,6 +109,7 @@ struct Column {
   Align align = Align::left;
   bool wraps = false;  ///< long sentences; other columns are as wide as their longest cell
   Audience audience = Audience::everybody;  ///< `verbose` is for pages and for a terminal with -v
+  bool stays = false;  ///< a narrow terminal leaves others out, the last first; never this one
 };
 
 struct Table {

@@ -15,6 +15,8 @@ struct Terminal {
   std::size_t columns = 100;  ///< text is broken to fit; at least 60, at most 120
   bool colours = false;
   bool verbose = false;  ///< shows blocks for `Audience::verbose`
+  /// Leaves columns of a table out, and names them, rather than break its lines. A pipe has all.
+  bool drops_columns = false;
 };
 
 /// For a person at a terminal: the answer, the blocks, assumptions, the command.

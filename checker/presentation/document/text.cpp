@@ -15,12 +15,11 @@ namespace stormproof::report {
 
 namespace {
 
-constexpr std::size_t wide_columns = 140;  ///< of tables that are not broken
-
 class TextPage {
  public:
   explicit TextPage(const Terminal& terminal)
-      : width_{std::clamp<std::size_t>(terminal.columns, 60, 120)},
+      : terminal_{terminal},
+        width_{std::clamp<std::size_t>(terminal.columns, 60, 120)},
         colours_{terminal.colours},
         verbose_{terminal.verbose} {}
 
@@ -165,8 +164,7 @@ class TextPage {
 
   void add(const Table& block, std::size_t indent) {
     if (!block.caption.empty()) running(indent, "", block.caption);
-    const std::size_t width = block.wide ? std::max(width_, wide_columns) : width_;
-    const auto rows = table_lines(block, width - indent, colours_, verbose_);
+    const auto rows = table_lines(block, width_ - indent, terminal_);
     for (const std::string& text : rows.front()) line(indent, text);
     for (std::size_t k = 0; k < block.rows.size(); ++k) {
       for (const std::string& text : rows[k + 1]) line(indent, text);
@@ -207,6 +205,7 @@ class TextPage {
   }
 
   std::string out_;
+  Terminal terminal_;
   std::size_t width_;
   bool colours_;
   bool verbose_;

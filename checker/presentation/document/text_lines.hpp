@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/document/render.hpp"
 
 namespace stormproof::report {
 
@@ -29,10 +30,11 @@ struct TextLine {
 [[nodiscard]] std::string emphasised(std::string_view words, Tone tone, bool colours);
 
 /// Lines of a table, each without line feed: as wide as its cells if they fit into `width`;
-/// otherwise columns of sentences are broken; where even that leaves no room, cells stand below
-/// each other. Rows of the result are those of the table, the first one is its head.
+/// otherwise columns of sentences are broken, and, if the terminal has it so, the last columns left
+/// out and named; where even that leaves no room, cells stand below each other. Rows of the result
+/// are those of the table, the first one is its head.
 [[nodiscard]] std::vector<std::vector<std::string>> table_lines(const Table& table,
-                                                                std::size_t width, bool colours,
-                                                                bool verbose);
+                                                                std::size_t width,
+                                                                const Terminal& terminal);
 
 }  // namespace stormproof::report

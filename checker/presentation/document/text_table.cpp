@@ -2,6 +2,10 @@
 // their longest cell needs, sentences share the rest.
 #include <algorithm>
 #include <numeric>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "checker/presentation/document/text_lines.hpp"
 
@@ -26,16 +30,39 @@ class TextTable {
     marks_ = std::ranges::any_of(table.rows, is_marked) ? gap : 0;
   }
 
-  std::vector<std::vector<std::string>> lines() {
+  /// The first entry is the head, without which a table is broken into lines. `drops` leaves
+  /// columns out until it fits; their heads are in `left_out` then.
+  std::optional<std::vector<std::vector<std::string>>> fitting(bool drops) {
     measure();
-    const bool fits = share();
+    while (!share()) {
+      if (!drops || !drop_last()) return std::nullopt;
+      measure();
+    }
+    return all_lines(true);
+  }
+  std::vector<std::vector<std::string>> broken_lines() { return all_lines(false); }
+
+  [[nodiscard]] const std::vector<std::string>& left_out() const { return left_out_; }
+
+ private:
+  std::vector<std::vector<std::string>> all_lines(bool fits) const {
     std::vector<std::vector<std::string>> all(1);
     if (fits) all.front() = head();
     for (const Table::Row& row : table_.rows) all.push_back(fits ? side_by_side(row) : below(row));
     return all;
   }
 
- private:
+  /// The last column that may go: the first two say what a row is about, sentences can be broken.
+  bool drop_last() {
+    for (std::size_t k = shown_.size(); k-- > 2;) {
+      if (column(k).stays || column(k).wraps) continue;
+      left_out_.insert(left_out_.begin(), column(k).head);
+      shown_.erase(shown_.begin() + static_cast<std::ptrdiff_t>(k));
+      return true;
+    }
+    return false;
+  }
+
   [[nodiscard]] const Column& column(std::size_t k) const { return table_.columns[shown_[k]]; }
   [[nodiscard]] Text cell(const Table::Row& row, std::size_t k) const {
     return shown_[k] < row.cells.size() ? row.cells[shown_[k]] : Text{};
@@ -147,16 +174,31 @@ class TextTable {
   const Table& table_;
   std::size_t width_;
   bool colours_;
-  std::vector<std::size_t> shown_;   ///< columns of the table that the reader gets to see
-  std::vector<std::size_t> widths_;  ///< of those
-  std::size_t marks_ = 0;            ///< columns in front of all, for the marks of rows
+  std::vector<std::size_t> shown_;     ///< columns of the table that the reader gets to see
+  std::vector<std::size_t> widths_;    ///< of those
+  std::vector<std::string> left_out_;  ///< heads of columns that a narrow terminal has no room for
+  std::size_t marks_ = 0;              ///< columns in front of all, for the marks of rows
 };
 
 }  // namespace
 
 std::vector<std::vector<std::string>> table_lines(const Table& table, std::size_t width,
-                                                  bool colours, bool verbose) {
-  return TextTable{table, width, colours, verbose}.lines();
+                                                  const Terminal& terminal) {
+  constexpr std::size_t wide_columns = 140;  // of tables that are not broken
+  if (terminal.drops_columns && !terminal.verbose) {
+    TextTable narrow{table, width, terminal.colours, terminal.verbose};
+    if (auto lines = narrow.fitting(true)) {
+      if (narrow.left_out().empty()) return *std::move(lines);
+      lines->front().insert(
+          lines->front().begin(),
+          fmt::format("(not at this width: {}; -v shows all)", fmt::join(narrow.left_out(), ", ")));
+      return *std::move(lines);
+    }
+  }
+  TextTable whole{table, table.wide ? std::max(width, wide_columns) : width, terminal.colours,
+                  terminal.verbose};
+  auto lines = whole.fitting(false);
+  return lines ? *std::move(lines) : whole.broken_lines();
 }
 
 }  // namespace stormproof::report

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/document/unreached.hpp"
 #include "checker/presentation/document/verdicts.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/plain_text.hpp"
@@ -293,6 +294,9 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
   document.complete = !report.interrupted;
   document.seconds = report.seconds;
   add_answer(document, report, context);
+  if (const std::string text = report::unreached(context.scenario); !text.empty()) {
+    document.blocks.emplace_back(Paragraph{text, report::Tone::warn});
+  }
   for (std::size_t k = 0; k < report.results.size(); ++k) {
     document.findings.push_back(ci_finding(report.results[k], context.gate.standings[k], context));
   }

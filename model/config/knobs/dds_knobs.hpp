@@ -55,7 +55,8 @@ inline constexpr std::array<std::string_view, 4> enum_names<Piggyback>{"cumulati
                                                                        "off", "group"};
 
 template <>
-inline constexpr std::array<std::string_view, 2> enum_names<AllowMulticast>{"true", "spdp"};
+inline constexpr std::array<std::string_view, 3> enum_names<AllowMulticast>{"true", "spdp",
+                                                                            "default"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MergeQueued>{"false", "true"};
 
@@ -105,6 +106,10 @@ inline constexpr std::int64_t max_epsilon_denominator = 1'000;
   const bool is_named = kind == implementation_of(kind);
   return is_named || traits_of(kind).has_server ? Presence::of_others : Presence::defaulted;
 }
+/// Of what programs have.
+[[nodiscard]] constexpr Presence of_programs(ImplementationKind implementation) {
+  return traits_of(implementation).fixed_rules ? Presence::optional : Presence::of_others;
+}
 [[nodiscard]] constexpr Presence with_discovery(ImplementationKind implementation) {
   return kind_of(implementation, Discovery::server) != implementation ? Presence::optional
                                                                       : Presence::of_others;
@@ -128,6 +133,10 @@ constexpr void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp,
              of_cyclone(implementation));
   visit.knob("directed_reply_interval", spdp.directed_reply_interval, period_range,
              "between two of these announcements", of_cyclone(implementation));
+  visit.knob("lease", spdp.lease, period_range,
+             "how long others remember a participant of which they hear nothing; it acts where "
+             "somebody leaves or the network fails (deployment.life)",
+             of_programs(implementation));
 }
 
 constexpr void visit_knobs(auto& visit, Is<AdaptiveProfile> auto& adaptive) {
@@ -449,6 +458,11 @@ constexpr void visit_discovery(auto& visit, Is<DdsProfile> auto& dds) {
   visit_knobs(visit, dds.server, kind);
   visit.knob("peer_ports", dds.peer_ports, count_range(1, 1'000),
              "ports of each host that announcements go to; 4 if absent", with_static_peers(kind));
+  visit.knob("max_participants_per_host", dds.max_participants_per_host,
+             usually(count_range(0, 1'000'000), 0),
+             "participants of a host that find a port, or an index; if 0 or absent, as many as the "
+             "library's own settings let start",
+             of_programs(dds.implementation));
 }
 
 constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
@@ -457,7 +471,8 @@ constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit_discovery(visit, dds);
   visit_knobs(visit, dds.version, dds.implementation);
   visit.knob("allow_multicast", dds.allow_multicast, ChoiceType<AllowMulticast>{},
-             "what goes to the multicast group: all that has several receivers, or announcements",
+             "what goes to the multicast group: all that has several receivers, announcements, or, "
+             "by default, the first on a wired network and the second on Wi-Fi",
              of_cyclone(dds.implementation));
   visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
                 dds.implementation);

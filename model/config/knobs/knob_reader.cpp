@@ -142,8 +142,9 @@ void KnobReader::rule(bool holds, std::string_view key, std::string_view expecte
     rest.remove_prefix(std::min(dot + 1, rest.size()));
   }
   const Node& blamed = node != nullptr ? *node : map_;
-  fail(blamed.place,
-       fmt::format("{}: {}; expected {}", join_path(path_, key), blamed.shown(), expected));
+  const std::string name = join_path(path_, key);
+  if (blamed.is_map()) return fail(blamed.place, fmt::format("{}: expected {}", name, expected));
+  fail(blamed.place, fmt::format("{}: {}; expected {}", name, blamed.shown(), expected));
 }
 
 namespace {
@@ -319,6 +320,13 @@ void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
     (void)ChoiceType<Discovery>{}.read(*way, value.discovery);
   }
   read_table(map, path, value, error);
+}
+
+void read_knobs(const Node& map, const std::string& path, Scenario& value,
+                std::optional<InputError>& error) {
+  read_table(map, path, value, error);
+  choose_multicast(value);
+  choose_lease(value);
 }
 
 void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,

@@ -83,6 +83,9 @@ void read_knobs(const Node& map, const std::string& path, Schedule& value,
 /// The implementation decides which keys there are.
 void read_knobs(const Node& map, const std::string& path, DdsProfile& value,
                 std::optional<InputError>& error);
+/// The network decides what a DDS profile leaves to it.
+void read_knobs(const Node& map, const std::string& path, Scenario& value,
+                std::optional<InputError>& error);
 /// What an access serves decides which keys there are. Packet delays are sorted; a packet has one
 /// of them.
 void read_knobs(const Node& map, const std::string& path, WirelessProfile& value,

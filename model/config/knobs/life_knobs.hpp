@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <string_view>
+
+#include <fmt/core.h>
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
@@ -93,20 +96,37 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
   const bool is_punctual = !scenario.hosts && scenario.wireless.sender == Sender::backlog;
   return traits_of(scenario.dds).knows_lives && (is_punctual || scenario.dds.amendments);
 }
+/// What else there would have to be, and what to set.
+[[nodiscard]] inline std::string needed_for_lives(const Scenario& scenario) {
+  if (!traits_of(scenario.dds).knows_lives) {
+    return "or a DDS profile whose rules know it: one with amendments, or implementation: fastdds "
+           "with discovery: simple";
+  }
+  std::string needed;
+  if (scenario.wireless.sender != Sender::backlog) {
+    needed =
+        "or wireless.sender: backlog (--set wireless.sender=backlog), as the wireless profile "
+        "has sender: stalls, with which packets wait for a full queue";
+  }
+  if (scenario.hosts) {
+    if (!needed.empty()) needed += ", and ";
+    needed += needed.empty() ? "or " : "";
+    needed += "no hosts, whose threads take processor time";
+  }
+  return needed;
+}
 void visit_life(auto& visit, Is<Scenario> auto& scenario) {
   const Deployment& deployment = scenario.deployment;
   const bool may_fail = scenario.vary && (scenario.vary->outages || scenario.vary->restarts);
   visit.rule(!may_fail || knows_lives(scenario), "vary",
-             "no outages or restarts, or a DDS profile whose rules know them: one with amendments, "
-             "or implementation: fastdds with discovery: simple, sender: backlog and no hosts");
+             fmt::format("no outages or restarts, {}", needed_for_lives(scenario)));
   const bool may_write = scenario.vary && scenario.vary->new_endpoints;
   visit.rule(!may_write || scenario.dds.amendments.has_value(), "vary.new_endpoints",
              "none, or a DDS profile with amendments, whose rules know them");
   if (!deployment.life) return;
   const Life& life = *deployment.life;
   visit.rule(knows_lives(scenario), "deployment.life",
-             "nothing of the kind, or a DDS profile whose rules know it: one with amendments, or "
-             "implementation: fastdds with discovery: simple, sender: backlog and no hosts");
+             fmt::format("nothing of the kind, {}", needed_for_lives(scenario)));
   const auto is_stale = [&](const StaleRelation& stale) {
     return is_cross_host(deployment, stale.writer, stale.reader);
   };

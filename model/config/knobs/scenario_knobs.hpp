@@ -265,6 +265,20 @@ void visit_knobs(auto& visit, Is<Variation> auto& vary) {
              Presence::optional);
 }
 
+/// Who is more on a host than find a port or an index is not there.
+void visit_crowd(auto& visit, Is<Scenario> auto& scenario) {
+  const std::uint32_t most = participants_of_a_host(scenario.dds);
+  const std::uint32_t crowd = most == 0 ? 0 : scenario.deployment.most_on_a_host();
+  const bool is_said = scenario.dds.max_participants_per_host != 0;
+  visit.rule(
+      crowd <= most, "deployment",
+      fmt::format("at most {} participants on a host, where {} are: with {} the next process "
+                  "does not start, as it finds no {} (dds.max_participants_per_host{})",
+                  most, crowd, traits_of(scenario.dds).whose,
+                  traits_of(scenario.dds).has_own_timers ? "participant index" : "free port",
+                  is_said ? "" : ", or what its own file says of it"));
+}
+
 /// The keys whose values may be the name of a file.
 inline constexpr std::string_view dds_key = "dds";
 inline constexpr std::string_view wireless_key = "wireless";
@@ -297,7 +311,9 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
            0;
   };
   visit.rule(scenario.deployment.has_cross_host_pair(), "deployment",
-             "participants on at least two hosts; otherwise there is nothing to discover");
+             "participants on at least two hosts; on a single one nothing crosses the network, and "
+             "there is nothing to discover");
+  visit_crowd(visit, scenario);
   visit.rule(std::ranges::any_of(scenario.deployment.participants, has_descriptors), "deployment",
              "at least one endpoint, user or default; otherwise there is nothing to discover");
   visit.rule(descriptor_deliveries(scenario) <= max_descriptor_deliveries, "deployment",

@@ -1,5 +1,8 @@
 // Settings of one file that contradict each other or do nothing beside each other, and limits that
 // users run into.
+#include <algorithm>
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "model/config/vendor/cyclonedds_settings.hpp"
@@ -28,10 +31,13 @@ class Contradictions {
     needs("Internal/RetransmitMergingPeriod", "Internal/RetransmitMerging", "never",
           "it acts with RetransmitMerging adaptive or always only");
     look_at_indices();
+    look_at_fixed_index();
     look_at_receive_buffer();
   }
 
  private:
+  static constexpr std::int64_t most_that_counts = 1'000'000;  ///< of max_participants_per_host
+
   void warn(std::string_view rule, const CycloneReading& reading, std::string message) {
     profile_.remarks.push_back({Severity::warning, fmt::format("cyclonedds.{}", rule),
                                 reading.place, std::move(message), ""});
@@ -47,14 +53,41 @@ class Contradictions {
                   "MaxAutoParticipantIndex has no effect: ParticipantIndex is not auto");
     }
     const CycloneReading* cause = most != nullptr ? most : index;
-    if (cause == nullptr) return;  // nobody said anything of indices
-    // The index after the one that was found is compared with the most, so the last is never taken
-    // (q_init.c, ddsi_init.c).
+    if (cause == nullptr) cause = settings_.silencer();
+    if (cause == nullptr && settings_.peers.empty()) return;
+    if (cause == nullptr) return set_limit(settings_.peers.front().place);
+    if (settings_.value(path).number == 0) {
+      profile_.remarks.push_back({Severity::error, "cyclonedds.participant-limit", cause->place,
+                                  "MaxAutoParticipantIndex 0: no process starts",
+                                  "at least the number of processes on a host"});
+      return;
+    }
+    limit(*cause,
+          "MaxAutoParticipantIndex raises it, and with it the ports that peers are asked at");
+  }
+
+  /// A number is the index of one process, whose ports the next one finds taken.
+  void look_at_fixed_index() {
+    const CycloneReading* index = settings_.find("Discovery/ParticipantIndex");
+    if (index == nullptr || !settings_.participant_index().empty()) return;
+    limit(*index, "with ParticipantIndex auto each finds a free one");
+  }
+
+  void limit(const CycloneReading& cause, std::string hint) {
+    const auto most = settings_.participants_of_a_host();
+    if (!most) return;
+    set_limit(cause.place);
     profile_.remarks.push_back(
-        {Severity::note, "cyclonedds.participant-limit", cause->place,
-         fmt::format("a host can have {} processes in this domain; the next one does not start",
-                     settings_.value(path).number),
-         "MaxAutoParticipantIndex raises it, and with it the ports that peers are asked at"});
+        {Severity::note, "cyclonedds.participant-limit", cause.place,
+         fmt::format("a host can have {} process{} in this domain; the next one does not start",
+                     *most, *most == 1 ? "" : "es"),
+         std::move(hint)});
+  }
+  void set_limit(const Place& place) {
+    const auto most = settings_.participants_of_a_host();
+    if (!most) return;
+    (void)set_path(profile_.changes, "max_participants_per_host",
+                   Node::scalar(place, fmt::format("{}", std::min(*most, most_that_counts))));
   }
 
   /// The library does not start without a minimum that somebody set.

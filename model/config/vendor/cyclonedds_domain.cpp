@@ -105,7 +105,7 @@ void CycloneDomainReader::read_element(const XmlElement& element, std::string_vi
     if (group.path == known) return read_opaque(element, group);
   }
   if (known == "General/Interfaces/NetworkInterface") {
-    settings_.interfaces.push_back(element.place);
+    settings_.interfaces.push_back({element.place});
   }
   read_attributes(element, known);
   read_text(element, known);
@@ -263,6 +263,11 @@ void CycloneDomainReader::keep(CycloneReading reading) {
   if (path == "Discovery/Peers/Peer[@Address]") {
     settings_.peers.push_back(std::move(reading));
     return;
+  }
+  if (path == "General/Interfaces/NetworkInterface[@multicast]") {
+    settings_.interfaces.back().multicast = reading;
+  } else if (path == "General/Interfaces/NetworkInterface[@allow_multicast]") {
+    settings_.interfaces.back().allow_multicast = reading;
   }
   if (const CycloneReading* old = settings_.find(path); old != nullptr && !is_repeatable(path)) {
     Setting& earlier = profile_.settings[old->setting];

@@ -1,7 +1,12 @@
 // Multicast, transport and interfaces: what several settings of Cyclone DDS decide together about
 // the ways that announcements and descriptors take.
+#include <algorithm>
+#include <utility>
+
 #include <fmt/core.h>
 
+#include "model/config/vendor/addresses.hpp"
+#include "model/config/vendor/any_case.hpp"
 #include "model/config/vendor/cyclonedds_settings.hpp"
 
 namespace stormproof::model::config::vendor {
@@ -36,60 +41,117 @@ class Network {
   }
 
   void apply_multicast() {
+    apply_peers();
+    apply_words();
+    if (settings_.announcing() == Announcing::nowhere) return apply_silence();
+    if (settings_.announcing() == Announcing::somewhere) {
+      const CycloneReading& cause = *settings_.silencer();
+      setting(cause).effect = Effect::unmodelled;
+      assume(profile_, "announcements on some interfaces", cause.place,
+             "not all interfaces announce by multicast; the model has one, which does");
+    }
+    look_at_reception();
+  }
+
+  void apply_peers() {
+    if (settings_.peers.empty()) return;
+    std::string addresses;
+    for (const CycloneReading& peer : settings_.peers) {
+      addresses += fmt::format("{}{}", addresses.empty() ? "" : ", ", peer.shown);
+      look_at_peer(peer);
+    }
+    const CycloneReading& first = settings_.peers.front();
+    assume(profile_, first.option->path, first.place,
+           fmt::format("{}; {}", addresses, first.option->note));
+  }
+
+  /// Addresses stand with commas between them; the first that is none ends the list
+  /// (add_addresses_to_addrset in q_addrset.c), and the process from 11 on
+  /// (ddsi_spdp_scheduler_new).
+  void look_at_peer(const CycloneReading& peer) {
+    const std::string why = why_no_peer(peer);
+    if (why.empty()) return;
+    const bool ends_process = settings_.version == CycloneVersion::of_11;
+    setting(peer).note = "not a valid address";
+    remark(ends_process ? Severity::error : Severity::warning, "peer-address", peer.place,
+           fmt::format(
+               "Peer Address {}: not a valid address ({}); {}", quote(peer.value.word), why,
+               ends_process ? "Cyclone DDS 11 ends the process" : "nobody there is announced to"),
+           "write the address of the peer's host, or leave the Peer out");
+  }
+  static std::string why_no_peer(const CycloneReading& peer) {
+    std::string_view rest = peer.value.word;
+    for (;;) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      std::string why = why_no_endpoint(rest.substr(0, comma));
+      if (!why.empty() || comma == rest.size()) return why;
+      rest.remove_prefix(comma + 1);
+    }
+  }
+  /// Whether an address of the peer comes before one that is none.
+  static bool leads_somewhere(const CycloneReading& peer) {
+    const std::string_view list = peer.value.word;
+    return why_no_endpoint(list.substr(0, list.find(','))).empty();
+  }
+
+  /// What AllowMulticast says; of 11 it holds for interfaces that say nothing themselves.
+  void apply_words() {
     constexpr std::string_view path = "General/AllowMulticast";
-    if (!settings_.peers.empty()) {
-      std::string addresses;
-      for (const CycloneReading& peer : settings_.peers) {
-        addresses += fmt::format("{}{}", addresses.empty() ? "" : ", ", peer.shown);
-      }
-      const CycloneReading& first = settings_.peers.front();
-      assume(profile_, first.option->path, first.place,
-             fmt::format("{}; {}", addresses, first.option->note));
-    }
     const CycloneReading* allow = settings_.find(path);
-    if (allow == nullptr) return;
-    const std::string& words = allow->value.word;
+    const std::string words = settings_.value(path).word;
     const auto has = [&](std::string_view word) { return words.find(word) != std::string::npos; };
-    const bool announces = has("spdp") || has("true") || has("default");
     const bool sedp = has("asm") || has("ssm") || has("true");
-    std::string what = "SEDP goes by unicast, as here";
-    setting(*allow).effect = Effect::knob;
-    if (has("default")) {
+    const bool announces = settings_.announcing() != Announcing::nowhere;
+    std::string knob = sedp && announces ? "true" : "spdp";
+    std::string what = sedp ? "what has several readers goes by multicast, as here"
+                            : "SEDP goes by unicast, as here";
+    if (has("default") && announces) {
+      knob = "default";
       what = "on a wired network SEDP goes by multicast, on Wi-Fi by unicast, as here";
-      setting(*allow).effect = Effect::unmodelled;
-    } else if (sedp) {
-      what = "what has several readers goes by multicast, as here";
     }
-    if (!announces) {
-      what = "announcements go to the peers alone, by unicast; the model sends them by multicast";
-      setting(*allow).effect = Effect::unmodelled;
-      look_for_unicast_discovery(*allow);
-    }
-    setting(*allow).note = what;
-    const bool multicast = sedp && announces;
+    if (allow == nullptr && announces) return;
+    const CycloneReading* cause = allow != nullptr ? allow : settings_.silencer();
     (void)set_path(profile_.changes, "allow_multicast",
-                   Node::scalar(allow->place, multicast ? "true" : "spdp"));
-    drop_assumption(profile_, path);  // it is a knob, and what `default` means stands in the preset
-    if (!announces) {
-      assume(profile_, path, allow->place, fmt::format("{}; {}", allow->shown, what));
+                   Node::scalar(cause->place, std::move(knob)));
+    if (allow == nullptr) return;
+    setting(*allow).effect = Effect::knob;
+    setting(*allow).note = std::move(what);
+  }
+
+  /// No announcement goes by multicast: there must be peers, and ports that they can guess.
+  void apply_silence() {
+    const CycloneReading& cause = *settings_.silencer();
+    const std::string what = fmt::format("{} {}", cause.option->path, cause.shown);
+    const std::string_view note =
+        "announcements go to the peers alone, by unicast; the model sends them by multicast";
+    setting(cause).effect = Effect::unmodelled;
+    setting(cause).note = note;
+    assume(profile_, cause.option->path, cause.place, fmt::format("{}; {}", cause.shown, note));
+    if (std::ranges::none_of(settings_.peers, leads_somewhere)) {
+      setting(cause).effect = Effect::outside;
+      remark(Severity::error, "no-announcements", cause.place,
+             fmt::format("{} without {}: no announcement leaves the host, so nobody on other hosts "
+                         "is found",
+                         what, settings_.peers.empty() ? "peers" : "the address of a peer"),
+             "add Discovery/Peers, or let announcements go by multicast (spdp)");
+    } else if (settings_.participant_index() == "none") {
+      remark(Severity::warning, "participant-index", cause.place,
+             fmt::format("{} with ParticipantIndex none: peers cannot know the ports of this host",
+                         what),
+             "set Discovery/ParticipantIndex to auto");
     }
   }
 
-  /// Without announcements by multicast there must be peers, and ports that they can guess.
-  void look_for_unicast_discovery(const CycloneReading& allow) {
-    if (settings_.peers.empty()) {
-      setting(allow).effect = Effect::outside;
-      remark(Severity::error, "no-announcements", allow.place,
-             fmt::format("AllowMulticast {} without peers: no announcement leaves the host",
-                         allow.shown),
-             "add Discovery/Peers, or set spdp");
-    } else if (settings_.participant_index() == "none") {
-      remark(Severity::warning, "participant-index", allow.place,
-             fmt::format("AllowMulticast {} with ParticipantIndex none: peers cannot know the "
-                         "ports of this host",
-                         allow.shown),
-             "set Discovery/ParticipantIndex to auto");
-    }
+  /// Announcements go out, but nobody with this file listens to the group.
+  void look_at_reception() {
+    const CycloneReading* heard = settings_.find("General/MulticastRecvNetworkInterfaceAddresses");
+    if (heard == nullptr || !is_same_word(heard->value.word, "none")) return;
+    if (std::ranges::any_of(settings_.peers, leads_somewhere)) return;
+    setting(*heard).effect = Effect::outside;
+    remark(Severity::error, "no-announcements", heard->place,
+           "MulticastRecvNetworkInterfaceAddresses none: no announcement is heard, so nobody on "
+           "other hosts is found",
+           "leave it out, or add Discovery/Peers");
   }
 
   void apply_transport() {
@@ -146,7 +208,7 @@ class Network {
   void apply_interfaces() {
     if (settings_.interfaces.size() < 2) return;
     assume(
-        profile_, "General/Interfaces", settings_.interfaces[1],
+        profile_, "General/Interfaces", settings_.interfaces[1].place,
         fmt::format("{} network interfaces; announcements go out on each, and list the addresses "
                     "of all; the model has one",
                     settings_.interfaces.size()));

@@ -105,6 +105,9 @@ class Effects {
   void apply_announcements() {
     const CycloneReading* interval = settings_.find("Discovery/SPDPInterval");
     const CycloneReading* lease = settings_.find("Discovery/LeaseDuration");
+    if (lease != nullptr && !is_usual(*lease->option, lease->value)) {
+      change_duration("spdp.lease", *lease, lease->value.number, 1);
+    }
     if (interval != nullptr && settings_.version == CycloneVersion::of_11 &&
         interval->value.word != "default") {
       return apply_interval_alone(*interval);
@@ -256,19 +259,72 @@ std::string CycloneSettings::shown(std::string_view path) const {
   return print_cyclone(option_of(path, version).type, value(path));
 }
 
+namespace {
+
+/// Whether announcements go by multicast with these words of AllowMulticast.
+bool announces(std::string_view words) {
+  const auto has = [words](std::string_view word) {
+    return words.find(word) != std::string_view::npos;
+  };
+  return has("spdp") || has("true") || has("default");
+}
+
+bool is_off(const std::optional<CycloneReading>& multicast) {
+  return multicast && multicast->value.word == "false";
+}
+
+}  // namespace
+
+Announcing CycloneSettings::announcing() const {
+  const bool by_default = announces(value("General/AllowMulticast").word);
+  std::size_t silent = 0;
+  for (const CycloneInterface& one : interfaces) {
+    const bool is_own = one.allow_multicast && one.allow_multicast->value.word != "default";
+    const bool sends = is_own ? announces(one.allow_multicast->value.word) : by_default;
+    if (is_off(one.multicast) || !sends) ++silent;
+  }
+  if (interfaces.empty()) return by_default ? Announcing::everywhere : Announcing::nowhere;
+  if (silent == 0) return Announcing::everywhere;
+  // 0.10 has one AllowMulticast for all, and switches it off for one interface (q_init.c).
+  const bool for_all = silent == interfaces.size() || version == CycloneVersion::of_0_10;
+  return for_all ? Announcing::nowhere : Announcing::somewhere;
+}
+
+const CycloneReading* CycloneSettings::silencer() const {
+  if (announcing() == Announcing::everywhere) return nullptr;
+  for (const CycloneInterface& one : interfaces) {
+    if (is_off(one.multicast)) return &*one.multicast;
+    const bool is_own = one.allow_multicast && one.allow_multicast->value.word != "default";
+    if (is_own && !announces(one.allow_multicast->value.word)) return &*one.allow_multicast;
+  }
+  return find("General/AllowMulticast");
+}
+
 std::string CycloneSettings::participant_index() const {
+  const auto has_no_multicast = [](const CycloneInterface& one) { return is_off(one.multicast); };
+  const bool is_allowed = value("General/AllowMulticast").word != "false";
+  if (version == CycloneVersion::of_0_10 && is_allowed &&
+      std::ranges::any_of(interfaces, has_no_multicast)) {
+    return "auto";  // "ensure discovery can work", q_init.c
+  }
   const std::string word = value("Discovery/ParticipantIndex").word;
   if (word != "default") return word;
   // decide_participant_index_and_add_localhost_to_peers in ddsi_init.c
-  const std::string allow = value("General/AllowMulticast").word;
-  const bool announces = allow.find("spdp") != std::string::npos ||
-                         allow.find("true") != std::string::npos ||
-                         allow.find("default") != std::string::npos;
-  return announces && peers.empty() ? "none" : "auto";
+  return announcing() == Announcing::everywhere && peers.empty() ? "none" : "auto";
+}
+
+std::optional<std::int64_t> CycloneSettings::participants_of_a_host() const {
+  const std::string index = participant_index();
+  if (index == "none") return std::nullopt;
+  if (index.empty()) return 1;  // the port of the next one is taken
+  // The index after the one that was found is compared with the most, so the last is never taken
+  // (q_init.c, ddsi_init.c).
+  return std::max<std::int64_t>(value("Discovery/MaxAutoParticipantIndex").number, 1);
 }
 
 std::string print_cyclone(const CycloneType& type, const CycloneValue& value) {
   if (!value.word.empty()) return value.word;
+  if (type.kind == CycloneKind::text) return quote(value.word);
   if (type.kind == CycloneKind::duration) return print_cyclone_duration(value.number);
   return type.kind == CycloneKind::size ? fmt::format("{} B", value.number)
                                         : fmt::format("{}", value.number);

@@ -20,6 +20,16 @@ struct CycloneReading {
   std::size_t setting = 0;  ///< its place in `VendorProfile::settings`
 };
 
+/// One NetworkInterface, with what is set of it by itself.
+struct CycloneInterface {
+  Place place;
+  std::optional<CycloneReading> multicast = {};        ///< [@multicast]
+  std::optional<CycloneReading> allow_multicast = {};  ///< [@allow_multicast], of 11
+};
+
+/// On how many interfaces announcements go by multicast.
+enum class Announcing : std::uint8_t { everywhere, somewhere, nowhere };
+
 /// The last value of each setting, by its path.
 class CycloneSettings {
  public:
@@ -30,14 +40,22 @@ class CycloneSettings {
   /// Its value, or the default.
   [[nodiscard]] CycloneValue value(std::string_view path) const;
   [[nodiscard]] std::string shown(std::string_view path) const;
-  /// "auto", "none", or a number in words of ParticipantIndex; what `default` of 11 comes to.
+  /// What AllowMulticast and the interfaces come to.
+  [[nodiscard]] Announcing announcing() const;
+  /// What switches multicast off, if announcements do not go by it everywhere: the setting of an
+  /// interface, or AllowMulticast. Null otherwise.
+  [[nodiscard]] const CycloneReading* silencer() const;
+  /// "auto" or "none"; empty: a number. What `default` of 11 comes to, and where 0.10 has an
+  /// interface without multicast.
   [[nodiscard]] std::string participant_index() const;
+  /// Processes of a host that find an index in this domain; nothing: all do.
+  [[nodiscard]] std::optional<std::int64_t> participants_of_a_host() const;
 
   [[nodiscard]] const auto& all() const { return readings_; }
 
   CycloneVersion version = CycloneVersion::of_0_10;
   std::vector<CycloneReading> peers;  ///< every address
-  std::vector<Place> interfaces;      ///< every NetworkInterface
+  std::vector<CycloneInterface> interfaces;
 
  private:
   std::map<std::string_view, CycloneReading> readings_;

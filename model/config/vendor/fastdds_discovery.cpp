@@ -16,6 +16,8 @@ namespace stormproof::model::config::vendor::fastdds {
 namespace {
 
 constexpr std::string_view discovery = "rtps/builtin/discovery_config/";
+/// Every client is told everything (Fast DDS #6272).
+constexpr Version all_are_super_clients = 305;
 constexpr std::int64_t max_announcements = 1'000'000;  ///< of spdp.startup_announcements
 
 const Found* find_discovery(const Reading& reading, std::string_view name) {
@@ -65,8 +67,8 @@ void interpret_lease(Reading& reading) {
     }
     set_knob(reading, *period, "spdp", "period", period_of(period->value));
   }
-  if (lease != nullptr && lease->value.number > default_lease) {
-    set_inert(reading, *lease, "a longer lease runs out later; in the model none does");
+  if (lease != nullptr && lease->value.number > 0 && lease->value.number != default_lease) {
+    set_knob(reading, *lease, "spdp", "lease", period_of(lease->value));
   }
   const std::int64_t lasts = lease == nullptr ? default_lease : lease->value.number;
   const bool is_infinite = lease != nullptr && lease->value.infinite;
@@ -118,15 +120,65 @@ void interpret_server_beside(Reading& reading) {
                  Node::scalar(value.place, period_of(value)));
 }
 
+/// The addresses of servers in a list of either syntax; a server without one is none.
+std::vector<std::string> servers_in(const XmlElement& list, Reading& reading) {
+  std::vector<std::string> servers;
+  const auto take = [&](const XmlElement& locator) {
+    if (locator.name != "locator") return;
+    std::string server = read_locator(locator, reading.profile);
+    const std::size_t blank = server.find(' ');
+    if (blank + 1 < server.size() && server[blank + 1] != ':') servers.push_back(std::move(server));
+  };
+  for (const XmlElement& one : list.children) {
+    take(one);
+    bool has_list = false;
+    for (const XmlElement& locators : one.children) {
+      if (one.name != "RemoteServer" || !locators.name.ends_with("LocatorList")) continue;
+      has_list = true;
+      for (const XmlElement& locator : locators.children) take(locator);
+    }
+    if (one.name != "RemoteServer" || reading.version >= servers_by_address) continue;
+    if (has_list && one.attribute("prefix") != nullptr) continue;
+    add_remark(reading.profile, Severity::error, "fastdds.remote-server", one.place,
+               fmt::format("<RemoteServer> without {}; the library refuses the file",
+                           has_list ? "a prefix" : "a <metatrafficUnicastLocatorList>"),
+               "both say who the server is, and where");
+  }
+  return servers;
+}
+
+/// A client asks its servers, and nobody else: it needs the address of one, by UDP over IPv4.
+void look_for_server(Reading& reading, const Found& protocol) {
+  const Found* list = find_discovery(reading, "discoveryServersList");
+  const auto servers =
+      list == nullptr ? std::vector<std::string>{} : servers_in(*list->element, reading);
+  if (servers.empty()) {
+    return set_outside(reading, protocol,
+                       "a client without the address of a server finds nobody: "
+                       "<discoveryServersList> has none, and ROS_DISCOVERY_SERVER is read where "
+                       "the protocol is SIMPLE only");
+  }
+  for (const auto& [kind, what] : {std::pair{"tcp", "TCP"}, {"udpv6", "IPv6"}}) {
+    const auto is_other = [kind = kind](const std::string& one) { return !one.starts_with(kind); };
+    if (std::ranges::any_of(servers, is_other)) continue;
+    set_outside(reading, *list, fmt::format("the server is reached by {} alone", what));
+  }
+}
+
 /// A client, or a super client, of one server. Returns whether it is.
 bool interpret_client(Reading& reading) {
   const Found* protocol = find_discovery(reading, "discoveryProtocol");
   if (protocol == nullptr) return false;
   const std::string& word = protocol->value.shown;
   if (word != "CLIENT" && word != "SUPER_CLIENT") return false;
-  set_knob(reading, *protocol, "", "discovery", word == "CLIENT" ? "server" : "super_client");
+  const bool is_super = word == "SUPER_CLIENT" || reading.version >= all_are_super_clients;
+  set_knob(reading, *protocol, "", "discovery", is_super ? "super_client" : "server");
   reading.setting_of(*protocol).note =
-      "one Discovery Server on host 0; its address does not matter";
+      word == "CLIENT" && is_super
+          ? "one Discovery Server on host 0, which since 3.5 tells every client everything; its "
+            "address does not matter"
+          : "one Discovery Server on host 0; its address does not matter";
+  look_for_server(reading, *protocol);
   const Found* period = find_discovery(reading, "clientAnnouncementPeriod");
   if (period != nullptr && period->value.number > 0) {
     set_knob(reading, *period, "", "client_sync_period", period_of(period->value));
@@ -141,6 +193,7 @@ void interpret_protocol(Reading& reading, bool is_client) {
                                       "simpleEDP/PUBREADER_SUBWRITER"}) {
     const Found* found = find_discovery(reading, name);
     if (found == nullptr || reading.setting_of(*found).effect != Effect::outside) continue;
+    if (is_client && name == "discoveryProtocol") continue;  // it has been said why
     set_outside(reading, *found, std::string{found->item->note});
   }
   if (const Found* flags = find_discovery(reading, "ignoreParticipantFlags")) {
@@ -208,6 +261,15 @@ const Found* peer_range(const Reading& reading) {
     if (transport.is_used && range != nullptr) return range;
   }
   return nullptr;
+}
+
+/// The first port, and each that is tried after it.
+void interpret_ports(Reading& reading) {
+  const Found* tries = reading.section.find("rtps/builtin/mutation_tries");
+  if (tries == nullptr) return;
+  constexpr std::int64_t most = 999'999;
+  set_knob(reading, *tries, "", "max_participants_per_host",
+           fmt::format("{}", std::min(tries->value.number, most) + 1));
 }
 
 /// What users of unicast peers run into.
@@ -347,6 +409,7 @@ void interpret_participant(Reading& reading) {
   const bool is_client = interpret_client(reading);
   interpret_protocol(reading, is_client);
   interpret_throughput(reading);
+  interpret_ports(reading);
   interpret_peers(reading, is_client);
   interpret_properties(reading);
 }

@@ -54,9 +54,8 @@ constexpr std::array participant_items{
                "NO_FILTER|FILTER_DIFFERENT_HOST|FILTER_DIFFERENT_PROCESS|FILTER_SAME_PROCESS"},
     SchemaItem{"rtps/builtin/discovery_config/EDP", choice, "SIMPLE", Effect::outside,
                "endpoints come from a file, so no SEDP takes place", "SIMPLE|STATIC"},
-    SchemaItem{"rtps/builtin/discovery_config/leaseDuration", duration, "20s", Effect::unmodelled,
-               "who is not heard for so long is dropped and discovered anew; in the model no lease "
-               "runs out"},
+    SchemaItem{"rtps/builtin/discovery_config/leaseDuration", duration, "20s", Effect::knob,
+               "how long the others remember a participant of which they hear nothing"},
     SchemaItem{"rtps/builtin/discovery_config/leaseAnnouncement", duration, "3s", Effect::knob,
                "period of the announcements after startup"},
     SchemaItem{"rtps/builtin/discovery_config/initialAnnouncements", group, "", Effect::none, ""},
@@ -103,7 +102,9 @@ constexpr std::array participant_items{
     SchemaItem{"rtps/builtin/flow_controller_name", text, "", Effect::unmodelled,
                "paces DATA of SEDP and of what looks up types; in the model they leave at once", "",
                302},
-    SchemaItem{"rtps/builtin/mutation_tries", uint32, "100", Effect::none, port_note},
+    SchemaItem{"rtps/builtin/mutation_tries", uint32, "100", Effect::knob,
+               "ports that are tried after the first: one participant of a host more than that "
+               "finds one"},
     SchemaItem{"rtps/port", group, "", Effect::none, ""},
     SchemaItem{"rtps/port/portBase", uint16, "7400", Effect::none, port_note},
     SchemaItem{"rtps/port/domainIDGain", uint16, "250", Effect::none, port_note},

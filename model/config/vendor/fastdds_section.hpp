@@ -61,6 +61,8 @@ struct SectionRules {
 /// Reads one value. `profile` gets the remarks.
 [[nodiscard]] Value read_value(const XmlElement& element, const SchemaItem& item,
                                VendorProfile& profile);
+/// "udpv4 192.0.2.5:11811". An address that is none makes the library refuse the file.
+[[nodiscard]] std::string read_locator(const XmlElement& locator, VendorProfile& profile);
 /// A number at the start of `text`, as `std::stoul` and `sscanf` find it, and the rest.
 struct LeadingNumber {
   std::int64_t number = 0;

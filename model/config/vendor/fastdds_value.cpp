@@ -12,6 +12,7 @@
 
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
+#include "model/config/vendor/addresses.hpp"
 #include "model/config/vendor/fastdds_section.hpp"
 
 namespace stormproof::model::config::vendor::fastdds {
@@ -149,33 +150,6 @@ std::string read_choice(const XmlElement& element, std::string_view text,
   return std::string{text};
 }
 
-std::string read_locator(const XmlElement& locator) {
-  constexpr std::array<std::string_view, 4> kinds{"udpv4", "udpv6", "tcpv4", "tcpv6"};
-  if (locator.children.size() != 1 ||
-      std::ranges::find(kinds, locator.children.front().name) == kinds.end()) {
-    refuse(locator.place, "<locator>; expected one of <udpv4>, <udpv6>, <tcpv4>, <tcpv6> in it");
-  }
-  const XmlElement& kind = locator.children.front();
-  std::string address;
-  std::string port;
-  for (const XmlElement& part : kind.children) {
-    if (part.name == "address") {
-      address = part.text;
-    } else if (part.name == "port" || part.name == "physical_port") {
-      const auto number = leading_number(part.text);
-      if (!number || number->number < 0 || number->number > 65'535) {
-        refuse(part.place, fmt::format("{} in <{}>; expected a port of 0 to 65535",
-                                       quote(part.text), part.name));
-      }
-      port = fmt::format(":{}", number->number);
-    } else if (part.name != "wan_address" && part.name != "unique_lan_id") {
-      refuse(part.place,
-             fmt::format("<{}> in <{}>; expected <address> and <port>", part.name, kind.name));
-    }
-  }
-  return fmt::format("{} {}{}", kind.name, address, port);
-}
-
 /// The children named `name`; `minimum` of them at least.
 Value read_list(const XmlElement& element, std::string_view name, std::size_t minimum,
                 VendorProfile& profile) {
@@ -186,7 +160,7 @@ Value read_list(const XmlElement& element, std::string_view name, std::size_t mi
                  fmt::format("<{}> in <{}> is ignored", child.name, element.name),
                  fmt::format("it has <{}> elements only", name));
     } else if (name == "locator") {
-      value.items.push_back(read_locator(child));
+      value.items.push_back(read_locator(child, profile));
     } else if (!child.text.empty()) {
       value.items.push_back(child.text);
     } else if (name == "transport_id") {
@@ -233,6 +207,39 @@ std::optional<LeadingNumber> leading_number(std::string_view text) {
   if (failed == std::errc::invalid_argument) return std::nullopt;
   return LeadingNumber{is_negative ? -number : number,
                        trimmed({rest, static_cast<std::size_t>(end - rest)})};
+}
+
+std::string read_locator(const XmlElement& locator, VendorProfile& profile) {
+  constexpr std::array<std::string_view, 4> kinds{"udpv4", "udpv6", "tcpv4", "tcpv6"};
+  if (locator.children.size() != 1 ||
+      std::ranges::find(kinds, locator.children.front().name) == kinds.end()) {
+    refuse(locator.place, "<locator>; expected one of <udpv4>, <udpv6>, <tcpv4>, <tcpv6> in it");
+  }
+  const XmlElement& kind = locator.children.front();
+  std::string address;
+  std::string port;
+  for (const XmlElement& part : kind.children) {
+    if (part.name == "address") {
+      address = part.text;
+      const std::string why = why_no_address(address);
+      if (!why.empty()) {
+        add_remark(profile, Severity::error, "fastdds.address", part.place,
+                   fmt::format("<address>: {}; the library refuses the file", why),
+                   "write the address or the name of the host");
+      }
+    } else if (part.name == "port" || part.name == "physical_port") {
+      const auto number = leading_number(part.text);
+      if (!number || number->number < 0 || number->number > 65'535) {
+        refuse(part.place, fmt::format("{} in <{}>; expected a port of 0 to 65535",
+                                       quote(part.text), part.name));
+      }
+      port = fmt::format(":{}", number->number);
+    } else if (part.name != "wan_address" && part.name != "unique_lan_id") {
+      refuse(part.place,
+             fmt::format("<{}> in <{}>; expected <address> and <port>", part.name, kind.name));
+    }
+  }
+  return fmt::format("{} {}{}", kind.name, address, port);
 }
 
 Value read_value(const XmlElement& element, const SchemaItem& item, VendorProfile& profile) {

@@ -8,6 +8,7 @@
 #include "model/config/knobs/effective.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/knobs/value_json.hpp"
+#include "model/config/tree/quantities.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/config/vendor/cyclonedds_values.hpp"
 #include "model/config/vendor/fastdds_schema.hpp"
@@ -42,6 +43,11 @@ std::string shown(const Values& values, std::string_view key) {
   return found == values.end() ? "nothing" : found->second;
 }
 
+/// A JSON text without its quotes.
+std::string trimmed_quotes(const std::string& value) {
+  return value.starts_with("\"") ? value.substr(1, value.size() - 2) : value;
+}
+
 /// The knobs to write, with their numbers; an error if one of them cannot be written.
 class Changes {
  public:
@@ -61,6 +67,10 @@ class Changes {
       const std::string way = shown(before, "discovery");
       DdsProfile same = base;
       same.discovery = profile.discovery;
+      const ServerProfile own = same.server;
+      same.server = profile.server;  // the rules of the version's server, which no user chooses
+      same.server.client_sync_period = own.client_sync_period;
+      same.server.server_routine_period = own.server_routine_period;
       before = values_of(same);
       before["discovery"] = way;
       if (profile.discovery == Discovery::simple) {
@@ -78,7 +88,7 @@ class Changes {
                          value, old_value));
       }
       if (knob.is_choice())
-        words_.emplace(knob.key, value);
+        words_.emplace(knob.key, trimmed_quotes(value));
       else
         add(vendor, preset, knob, numeric_knob(profile, knob.key), value);
     }
@@ -88,6 +98,20 @@ class Changes {
   [[nodiscard]] const std::int64_t* find(std::string_view key) const {
     const auto found = numbers_.find(key);
     return found == numbers_.end() ? nullptr : &found->second;
+  }
+  /// A duration that is no knob to search, in ns.
+  [[nodiscard]] std::optional<std::int64_t> duration(std::string_view key) const {
+    const std::string* text = word(key);
+    const auto parsed = text == nullptr ? std::nullopt : std::optional{parse_duration(*text)};
+    if (!parsed || !*parsed) return std::nullopt;
+    return (*parsed)->count();
+  }
+  /// The number of participants of a host that changes.
+  [[nodiscard]] std::optional<std::int64_t> participants_of_a_host() const {
+    const std::string* text = word("max_participants_per_host");
+    const auto parsed = text == nullptr ? std::nullopt : std::optional{parse_count(*text)};
+    if (!parsed || !*parsed) return std::nullopt;
+    return **parsed;
   }
   /// The word of a choice that changes, or null.
   [[nodiscard]] const std::string* word(std::string_view key) const {
@@ -250,9 +274,15 @@ void write_server(XmlWriter& xml, std::int64_t routine_period) {
 
 void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
   const bool has_peers = changes.discovery() == Discovery::static_peers;
-  const bool has_config = changes.has_any("spdp.") || changes.has_server();
-  if (!has_config && !has_peers) return;
+  const auto lease = changes.duration("spdp.lease");
+  const auto participants = changes.participants_of_a_host();
+  const bool has_config = changes.has_any("spdp.") || lease || changes.has_server();
+  if (!has_config && !has_peers && !participants) return;
   xml.open("builtin");
+  if (participants) {
+    xml.comment("ports that a participant tries after its first");
+    xml.leaf("mutation_tries", fmt::format("{}", *participants - 1));
+  }
   if (has_config) xml.open("discovery_config");
   if (changes.has_server()) write_client(xml, changes);
   const std::int64_t* count = changes.find("spdp.startup_announcements");
@@ -263,6 +293,10 @@ void write_fastdds_discovery(XmlWriter& xml, const Changes& changes) {
     if (count != nullptr) xml.leaf("count", fmt::format("{}", *count));
     if (startup != nullptr) write_duration(xml, "period", *startup);
     xml.close();
+  }
+  if (lease) {
+    xml.comment("how long others remember a participant of which they hear nothing");
+    write_duration(xml, "leaseDuration", *lease);
   }
   if (const std::int64_t* period = changes.find("spdp.period")) {
     xml.comment("time between announcements from then on");
@@ -351,14 +385,26 @@ std::string write_fastdds(const Changes& changes, const std::string& comment) {
 /// have.
 constexpr std::int64_t usual_interval_ns = 100'000'000;
 
-void write_cyclone_announcements(XmlWriter& xml, std::int64_t period) {
+void write_cyclone_discovery(XmlWriter& xml, const Changes& changes) {
   constexpr std::int64_t default_bound = 8 * second_ns;
+  const std::int64_t* period = changes.find("spdp.period");
+  std::optional<std::int64_t> lease = changes.duration("spdp.lease");
+  const auto participants = changes.participants_of_a_host();
+  if (period == nullptr && !lease && !participants) return;
   xml.open("Discovery");
-  xml.comment("time between announcements");
-  xml.leaf("SPDPInterval", print_cyclone_duration(period));
-  if (period > default_bound) {
+  if (period != nullptr) {
+    xml.comment("time between announcements");
+    xml.leaf("SPDPInterval", print_cyclone_duration(*period));
+    if (!lease && *period > default_bound) lease = *period + 2 * second_ns;
+  }
+  if (lease) {
     xml.comment("announcements go out 2 s before the lease ends, or earlier");
-    xml.leaf("LeaseDuration", print_cyclone_duration(period + 2 * second_ns));
+    xml.leaf("LeaseDuration", print_cyclone_duration(*lease));
+  }
+  if (participants) {
+    xml.comment("processes of a host that find an index");
+    xml.leaf("ParticipantIndex", "auto");
+    xml.leaf("MaxAutoParticipantIndex", fmt::format("{}", *participants));
   }
   xml.close();
 }
@@ -371,7 +417,7 @@ void write_cyclone_general(XmlWriter& xml, const Changes& changes) {
   xml.open("General");
   if (multicast != nullptr) {
     xml.comment("what goes by multicast: all that has several receivers, or announcements");
-    xml.leaf("AllowMulticast", *multicast == "true" ? "true" : "spdp");
+    xml.leaf("AllowMulticast", *multicast);
   }
   if (size != nullptr) {
     xml.comment("largest packet without repairs");
@@ -426,9 +472,7 @@ std::string write_cyclonedds(const Changes& changes, const std::string& comment)
   xml.open("CycloneDDS xmlns=\"https://cdds.io/config\"");
   xml.open("Domain Id=\"any\"");
   write_cyclone_general(xml, changes);
-  if (const std::int64_t* period = changes.find("spdp.period")) {
-    write_cyclone_announcements(xml, *period);
-  }
+  write_cyclone_discovery(xml, changes);
   if (changes.has_any("sedp.")) write_cyclone_internal(xml, changes);
   return xml.text();
 }

@@ -166,7 +166,7 @@ TEST(Specs, since_3_0_clients_know_a_server_by_its_locator) {
 TEST(Specs, cyclone_dds_has_the_values_of_its_source) {
   DdsProfile expected;
   expected.implementation = ImplementationKind::cyclone;
-  expected.allow_multicast = AllowMulticast::spdp;
+  expected.allow_multicast = AllowMulticast::by_network;
   expected.spdp.period = Nanoseconds{8'000'000'000};
   DdsProfile wifi = dds("cyclonedds-0.10");
   EXPECT_FALSE(wifi.unmodelled.empty());
@@ -182,6 +182,65 @@ TEST(Specs, cyclone_dds_has_the_values_of_its_source) {
   DdsProfile wired = dds("cyclonedds-0.10-multicast");
   wired.unmodelled.clear();
   EXPECT_EQ(wired, expected);
+}
+
+/// What AllowMulticast is by default depends on the network, not on the profile.
+TEST(Specs, cyclone_dds_sends_everything_by_multicast_on_a_cable) {
+  const auto multicast = [](const std::string& dds, const std::string& wireless) {
+    const auto scenario = read_scenario(
+        "smallest", std::vector<std::string>{"dds=" + dds, "wireless=" + wireless}, source_specs());
+    EXPECT_TRUE(scenario) << (scenario ? "" : to_string(scenario.error()));
+    return scenario ? scenario->dds.allow_multicast : AllowMulticast::by_network;
+  };
+  for (const char* dds : {"cyclonedds-0.10", "cyclonedds-11"}) {
+    EXPECT_EQ(multicast(dds, "wired"), AllowMulticast::always) << dds;
+    EXPECT_EQ(multicast(dds, "wifi-80211n"), AllowMulticast::spdp) << dds;
+  }
+  EXPECT_EQ(multicast("{base: cyclonedds-0.10, allow_multicast: spdp}", "wired"),
+            AllowMulticast::spdp);
+  EXPECT_EQ(multicast("cyclonedds-0.10-multicast", "wifi-80211n"), AllowMulticast::always);
+}
+
+/// Whoever has a server has that of the version, whatever it is called.
+TEST(Specs, a_server_over_a_preset_without_one_is_that_of_its_version) {
+  for (const auto& [simple, server] : {std::pair{"fastdds-2.14.5", "fastdds-server-2.14.5"},
+                                       {"lyrical", "fastdds-server-3.6"},
+                                       {"kilted", "fastdds-server-3.2"},
+                                       {"humble", "fastdds-server-2.6.11"}}) {
+    const DdsProfile expected = dds(server);
+    const auto chosen = read_dds_profile(simple, std::vector<std::string>{"discovery=super_client"},
+                                         source_specs());
+    ASSERT_TRUE(chosen) << to_string(chosen.error());
+    EXPECT_EQ(chosen->server, expected.server) << simple;
+    const auto scenario = read_scenario(
+        "smallest", std::vector<std::string>{std::string{"dds="} + simple, "dds.discovery=server"},
+        source_specs());
+    ASSERT_TRUE(scenario) << to_string(scenario.error());
+    EXPECT_EQ(scenario->dds.server, expected.server) << simple;
+  }
+  const auto own = read_dds_profile(
+      "lyrical", std::vector<std::string>{"discovery=server", "server_known=guid"}, source_specs());
+  ASSERT_TRUE(own);
+  EXPECT_EQ(own->server.known, ServerKnown::guid);
+}
+
+TEST(Specs, more_participants_than_find_a_port_are_refused) {
+  const auto error = [](std::vector<std::string> changes) {
+    const auto scenario = read_scenario("smallest", changes, source_specs());
+    return scenario ? std::string{} : to_string(scenario.error());
+  };
+  const auto on_a_host = [](int participants) {
+    return "deployment.participants_per_host=" + std::to_string(participants);
+  };
+  EXPECT_EQ(error({"dds=fastdds-2.6.11", on_a_host(101)}), "");
+  EXPECT_NE(
+      error({"dds=fastdds-2.6.11", on_a_host(102)}).find("at most 101 participants on a host"),
+      std::string::npos);
+  EXPECT_EQ(error({"dds=paper", on_a_host(102)}), "");
+  const std::string few = "dds={base: cyclonedds-0.10, max_participants_per_host: 9}";
+  EXPECT_EQ(error({few, on_a_host(9)}), "");
+  EXPECT_NE(error({few, on_a_host(10)}).find("at most 9 participants on a host, where 10 are"),
+            std::string::npos);
 }
 
 TEST(Specs, the_live_machine_starts_its_processes_one_after_the_other) {

@@ -56,6 +56,35 @@ TEST(Draft, RefusesWhatNobodyKnows) {
   EXPECT_FALSE(draft(system, specs()));
 }
 
+/// Numbers that make no scenario are refused in words about the numbers, not about a draft that
+/// nobody has seen.
+TEST(Draft, RefusesNumbersThatNobodyCanRun) {
+  System system;
+  system.hosts = 1;
+  const auto alone = draft(system, specs());
+  ASSERT_FALSE(alone);
+  EXPECT_TRUE(to_string(alone.error()).starts_with("--hosts 1: on a single host nothing crosses"));
+  system.hosts = 2;
+  system.participants = 200;
+  const auto crowded = draft(system, specs());
+  ASSERT_FALSE(crowded);
+  EXPECT_TRUE(to_string(crowded.error())
+                  .starts_with("--participants 200: expected at most 101 participants on a host"))
+      << to_string(crowded.error());
+}
+
+/// Who is at no port that is asked is not found by others of his kind.
+TEST(Draft, SaysWhoIsAtNoPort) {
+  System system;
+  system.discovery = "static";
+  system.participants = 6;
+  const auto text = draft(system, specs());
+  ASSERT_TRUE(text) << to_string(text.error());
+  EXPECT_NE(text->find("# Announcements go to 4 ports of each host"), std::string::npos) << *text;
+  system.participants = 4;
+  EXPECT_EQ(draft(system, specs())->find("# Announcements go to"), std::string::npos);
+}
+
 TEST(Draft, OfACaptureHasItsParticipants) {
   const auto conversation = conform::testing::shipped("fastdds291_ap_np3_ne10_r0");
   const auto text = draft_of_capture(conversation, {});

@@ -126,6 +126,11 @@ TEST(Environment, WhatIsNotInTheModelIsRefused) {
   };
   EXPECT_TRUE(refuses("ROS_DISCOVERY_SERVER", "TCPv4:[192.0.2.5]:42100"));
   EXPECT_TRUE(refuses("ROS_DISCOVERY_SERVER", "192.0.2.5:11811;TCPv4:[192.0.2.6]:42100"));
+  for (const char* address : {"[IP_ADDRESS]:11811", "192.168.1.X:11811", "192.0.2.5:port", ";"}) {
+    EXPECT_TRUE(refuses("ROS_DISCOVERY_SERVER", address)) << address;
+  }
+  EXPECT_FALSE(refuses("ROS_DISCOVERY_SERVER", ";192.0.2.5:11811;UDPv4:[192.0.2.6]:11811;robot"));
+  EXPECT_TRUE(refuses("ROS_STATIC_PEERS", "192.0.2.4;ROBOT_IP"));
   EXPECT_TRUE(refuses("FASTDDS_BUILTIN_TRANSPORTS", "LARGE_DATA?max_msg_size=1MB"));
   EXPECT_TRUE(refuses("FASTDDS_BUILTIN_TRANSPORTS", "SHM"));
   EXPECT_TRUE(refuses("ROS2_EASY_MODE", "192.0.2.5"));

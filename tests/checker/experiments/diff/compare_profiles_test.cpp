@@ -137,6 +137,33 @@ TEST(CompareProfiles, UnmodelledSettingsAreNeverCalledEqual) {
   EXPECT_EQ(compared(base, candidate).relation, Relation::different);
 }
 
+/// A lease acts where somebody leaves or the network fails: neither "the same everywhere" nor
+/// unknown.
+TEST(CompareProfiles, LeasesDifferElsewhere) {
+  const auto with_lease = [](std::int64_t seconds, ImplementationKind kind) {
+    DdsProfile dds;
+    dds.implementation = kind;
+    dds.spdp.lease = model::Nanoseconds{seconds * 1'000'000'000};
+    return dds;
+  };
+  for (const ImplementationKind kind : {ImplementationKind::fastdds, ImplementationKind::cyclone}) {
+    const Comparison longer = compared(with_lease(15, kind), with_lease(300, kind));
+    EXPECT_EQ(longer.relation, Relation::elsewhere);
+    for (const char* word : {"ghost", "for 15s", "for 300s", "was not run"}) {
+      EXPECT_NE(longer.proof.find(word), std::string::npos) << longer.proof;
+    }
+    EXPECT_FALSE(change_of(longer, "spdp.lease")->matters);
+    EXPECT_EQ(compared(with_lease(30, kind), with_lease(5, kind)).relation, Relation::elsewhere);
+  }
+  DdsProfile usual;
+  usual.implementation = ImplementationKind::fastdds;
+  EXPECT_EQ(compared(usual, with_lease(20, ImplementationKind::fastdds)).relation,
+            Relation::equivalent);
+  DdsProfile few = usual;
+  few.max_participants_per_host = 4;
+  EXPECT_EQ(compared(usual, few).relation, Relation::elsewhere);
+}
+
 TEST(CompareProfiles, ImplementationsHaveDifferentKnobs) {
   DdsProfile fastdds;
   fastdds.implementation = ImplementationKind::fastdds;

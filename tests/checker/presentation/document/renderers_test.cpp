@@ -159,6 +159,34 @@ TEST(TextRenderer, PutsCellsBelowEachOtherWhereNothingElseFits) {
   EXPECT_TRUE(has(text, "  five: a sentence")) << text;
 }
 
+/// The last columns go first, and are named; what says what a row is about, and what is to stay,
+/// stays.
+TEST(TextRenderer, LeavesColumnsOutRatherThanBreakLines) {
+  Table table{{{"way to discover"}, {"completion", Column::Align::right}}, {}};
+  for (const char* head : {"messages", "repairs", "HEARTBEATs", "ACKNACKs", "announcements"}) {
+    table.columns.push_back({head, Column::Align::right});
+  }
+  table.columns.push_back({.head = "breaks at", .stays = true});
+  table.rows.push_back(
+      {{"server on its own host", "12.34 s", "10,000", "200", "300", "400", "5", "10 robots"}});
+  table.wide = true;
+  Document document;
+  document.blocks.emplace_back(table);
+  const std::string narrow = to_text(document, {.columns = 80, .drops_columns = true});
+  EXPECT_TRUE(has(narrow, "(not at this width: ")) << narrow;
+  EXPECT_TRUE(has(narrow, "announcements; -v shows all)")) << narrow;
+  EXPECT_TRUE(has(narrow, "10 robots")) << narrow;
+  EXPECT_FALSE(has(narrow, "10,000  200  300  400  5")) << narrow;
+  std::istringstream lines{narrow};
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+  for (const Terminal& all :
+       {Terminal{.columns = 120, .drops_columns = true},
+        Terminal{.columns = 80, .verbose = true, .drops_columns = true}, Terminal{.columns = 80}}) {
+    EXPECT_FALSE(has(to_text(document, all), "not at this width"));
+    EXPECT_TRUE(has(to_text(document, all), "announcements"));
+  }
+}
+
 TEST(MarkdownRenderer, KeepsTextsOfUsersTexts) {
   const std::string text = to_markdown(example());
   EXPECT_TRUE(text.starts_with("### stormproof example &lt;b&gt;&amp;\\|\\`\\*\\_")) << text;

@@ -121,7 +121,7 @@ TEST(Life, RefusesRestartsThatCannotBe) {
   EXPECT_NE(refusal({rules, "deployment.life={leases: [{participant: 9, duration: 1s}]}"})
                 .find("participants of the deployment"),
             std::string::npos);
-  EXPECT_NE(refusal({"vary={outages: 1}"}).find("a DDS profile whose rules know them"),
+  EXPECT_NE(refusal({"vary={outages: 1}"}).find("a DDS profile whose rules know it"),
             std::string::npos);
   for (const char* key : {"vary={new_endpoints: 1}",
                           "deployment.life={endpoints: [{participant: 0, publications: 1, "

@@ -78,7 +78,8 @@ TEST(JsonSchemaContent, cyclone_dds_needs_its_own_keys_and_forbids_the_others) {
   EXPECT_FALSE(forbidden.contains("allow_multicast"));
   const auto& sedp = schema["properties"]["sedp"]["properties"];
   EXPECT_TRUE(sedp.contains("heartbeat_interval") && sedp.contains("heartbeat_period"));
-  EXPECT_EQ(schema["properties"]["allow_multicast"]["enum"], nlohmann::json::array({true, "spdp"}));
+  EXPECT_EQ(schema["properties"]["allow_multicast"]["enum"],
+            nlohmann::json::array({true, "spdp", "default"}));
 }
 
 TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {

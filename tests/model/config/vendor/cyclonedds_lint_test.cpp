@@ -193,7 +193,8 @@ TEST(CycloneLint, limits_that_users_run_into) {
       read(discovery("<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>30"
                      "</MaxAutoParticipantIndex>"));
   EXPECT_TRUE(raised.remarks.front().message.starts_with("a host can have 30 processes"));
-  EXPECT_EQ(found(discovery("<ParticipantIndex>3</ParticipantIndex>")), Remarks{});
+  EXPECT_EQ(found(discovery("<ParticipantIndex>3</ParticipantIndex>")),
+            Remarks{"note cyclonedds.participant-limit 2"});
   EXPECT_EQ(found(internal("<SocketReceiveBufferSize min=\"10 MB\"/>")),
             Remarks{"warning cyclonedds.kernel-buffer 2"});
   EXPECT_EQ(found(internal("<SocketReceiveBufferSize min=\"100 kB\"/>")), Remarks{});

@@ -147,7 +147,7 @@ TEST(CycloneXml, multicast) {
     return result;
   };
   EXPECT_EQ(effect("spdp"), "knob");
-  EXPECT_EQ(effect("default"), "unmodelled");
+  EXPECT_EQ(effect("default"), "knob");
   EXPECT_EQ(effect("TRUE"), "knob");
   EXPECT_EQ(effect("spdp,asm"), "knob");
   const auto multicast_of = [](const char* words) {
@@ -158,7 +158,7 @@ TEST(CycloneXml, multicast) {
   EXPECT_EQ(multicast_of("true"), AllowMulticast::always);
   EXPECT_EQ(multicast_of("spdp,asm"), AllowMulticast::always);
   EXPECT_EQ(multicast_of("spdp"), AllowMulticast::spdp);
-  EXPECT_EQ(multicast_of("default"), AllowMulticast::spdp);
+  EXPECT_EQ(multicast_of("default"), AllowMulticast::by_network);
   EXPECT_EQ(effect("false"), "outside, error cyclonedds.no-announcements 2");
   EXPECT_EQ(effect("ssm"), "outside, error cyclonedds.no-announcements 2");
   const char* peers = "<Peers><Peer Address=\"10.0.0.2\"/></Peers>";
@@ -189,6 +189,103 @@ TEST(CycloneXml, several_interfaces) {
   EXPECT_TRUE(change(two, "unmodelled", "General/Interfaces").starts_with("2 network interfaces"));
   const VendorProfile silent = read(text("<NetworkInterface name=\"wlan0\" multicast=\"false\"/>"));
   EXPECT_NE(change(silent, "unmodelled", "General/Interfaces/NetworkInterface[@multicast]"), "-");
+}
+
+/// 0.10 switches multicast off for all interfaces if one has none; nobody is found without peers.
+TEST(CycloneXml, an_interface_without_multicast) {
+  const auto text = [](const char* interfaces, const char* more = "") {
+    return domain(
+        fmt::format("<General><Interfaces>{}</Interfaces></General><Discovery>{}"
+                    "</Discovery>",
+                    interfaces, more));
+  };
+  const auto found = [](const VendorProfile& profile) {
+    return fmt::format("{}", fmt::join(remarks(profile), ", "));
+  };
+  const char* silent = "<NetworkInterface name=\"wlan0\" multicast=\"false\"/>";
+  const char* both =
+      "<NetworkInterface name=\"eth0\"/><NetworkInterface name=\"wlan0\" multicast=\"false\"/>";
+  const char* peers = "<Peers><Peer Address=\"192.0.2.10\"/></Peers>";
+  for (const char* interfaces : {silent, both}) {
+    EXPECT_NE(found(read(text(interfaces))).find("error cyclonedds.no-announcements 2"),
+              std::string::npos);
+    const VendorProfile reachable = read(text(interfaces, peers));
+    EXPECT_EQ(found(reachable), "note cyclonedds.participant-limit 2") << interfaces;
+    ASSERT_NE(reachable.changes.find("max_participants_per_host"), nullptr);
+    EXPECT_EQ(reachable.changes.find("max_participants_per_host")->text, "9");
+    EXPECT_EQ(reachable.changes.find("allow_multicast")->text, "spdp");
+  }
+  EXPECT_EQ(found(read(text("<NetworkInterface name=\"wlan0\" multicast=\"true\"/>"))), "");
+}
+
+/// From 11 on each interface has an AllowMulticast of its own.
+TEST(CycloneXml, interfaces_of_11_announce_each_for_itself) {
+  const auto of_11 = [](const char* interfaces) {
+    const auto root = parse_xml(
+        domain(fmt::format("<General><Interfaces>{}</Interfaces></General>", interfaces)), "c.xml");
+    auto profile = read_cyclonedds_profile(*root, {"", "cyclonedds-11"});
+    EXPECT_TRUE(profile);
+    return fmt::format("{}", fmt::join(remarks(*profile), ", "));
+  };
+  const std::string error = "error cyclonedds.no-announcements 2";
+  EXPECT_NE(of_11("<NetworkInterface name=\"a\" allow_multicast=\"asm\"/>").find(error),
+            std::string::npos);
+  EXPECT_EQ(of_11("<NetworkInterface name=\"a\" allow_multicast=\"spdp\"/>"), "");
+  EXPECT_EQ(
+      of_11("<NetworkInterface name=\"a\"/><NetworkInterface name=\"b\" multicast=\"false\"/>")
+          .find(error),
+      std::string::npos);
+}
+
+TEST(CycloneXml, addresses_of_peers_that_are_none) {
+  const auto found = [](const char* index, const char* address, const char* multicast = "false") {
+    return fmt::format(
+        "{}",
+        fmt::join(remarks(read(domain(fmt::format(
+                      "<General><AllowMulticast>{}</AllowMulticast></General><Discovery>"
+                      "<ParticipantIndex>{}</ParticipantIndex><Peers><Peer Address=\"{}\"/></Peers>"
+                      "</Discovery>",
+                      multicast, index, address)))),
+                  ", "));
+  };
+  for (const char* address : {"", "[IP_ADDRESS]", "192.168.1.X", "YOUR_IP", "300.1.1.1", "a b"}) {
+    const std::string alone = found("none", address);
+    EXPECT_NE(alone.find("error cyclonedds.no-announcements"), std::string::npos) << address;
+    EXPECT_NE(alone.find("warning cyclonedds.peer-address"), std::string::npos) << address;
+    EXPECT_EQ(found("none", address, "spdp"), "warning cyclonedds.peer-address 2") << address;
+  }
+  for (const char* address :
+       {"192.0.2.1", "192.0.2.1:7410", "robot", "robot.local", "192.0.2.1,a"}) {
+    EXPECT_EQ(found("auto", address), "note cyclonedds.participant-limit 2") << address;
+  }
+  const auto of_11 = read_cyclonedds_profile(
+      *parse_xml(discovery("<Peers><Peer Address=\"[IP]\"/></Peers>"), "c.xml"),
+      {"", "cyclonedds-11"});
+  ASSERT_TRUE(of_11);
+  EXPECT_NE(
+      fmt::format("{}", fmt::join(remarks(*of_11), ", ")).find("error cyclonedds.peer-address"),
+      std::string::npos);
+}
+
+/// What a host can have at most stands in the profile.
+TEST(CycloneXml, processes_of_a_host) {
+  const auto most = [](const std::string& settings) {
+    return resolved(discovery(settings)).max_participants_per_host;
+  };
+  EXPECT_EQ(most(""), 0U);
+  EXPECT_EQ(most("<ParticipantIndex>auto</ParticipantIndex>"), 9U);
+  EXPECT_EQ(most("<ParticipantIndex>auto</ParticipantIndex>"
+                 "<MaxAutoParticipantIndex>30</MaxAutoParticipantIndex>"),
+            30U);
+  EXPECT_EQ(most("<ParticipantIndex>3</ParticipantIndex>"), 1U);
+  EXPECT_EQ(remarks(read(discovery("<ParticipantIndex>auto</ParticipantIndex>"
+                                   "<MaxAutoParticipantIndex>0</MaxAutoParticipantIndex>"))),
+            Remarks{"error cyclonedds.participant-limit 2"});
+}
+
+TEST(CycloneXml, a_lease_is_a_value_of_the_profile) {
+  EXPECT_EQ(resolved(discovery("<LeaseDuration>300s</LeaseDuration>")).spdp.lease,
+            Nanoseconds{300'000'000'000});
 }
 
 TEST(CycloneXml, other_transports_are_outside) {

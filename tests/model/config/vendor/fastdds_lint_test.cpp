@@ -76,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(
         Linted{"server_settings_of_a_client",
                discovery("<discoveryProtocol>CLIENT</discoveryProtocol>\n<clientAnnouncementPeriod>"
                          "<sec>1</sec></clientAnnouncementPeriod>"),
-               {}},
+               {"error fastdds.outside 4:47"}},
         Linted{"static_file_without_static",
                discovery("<staticEndpointXMLFilename>x.xml</staticEndpointXMLFilename>"),
                {"warning fastdds.static-edp-file 4:55"}},

@@ -44,13 +44,20 @@ TEST(FastddsXml, announcements_become_knobs) {
   EXPECT_EQ(count.place.to_string(), "f.xml:4:57");
 }
 
+/// The list of one server, as 2.x has it.
+const std::string one_server =
+    "<discoveryServersList><RemoteServer prefix=\"44.53.00.5f.45.50.52.4f.53.49.4d.41\">"
+    "<metatrafficUnicastLocatorList><locator><udpv4><address>192.0.2.5</address><port>11811</port>"
+    "</udpv4></locator></metatrafficUnicastLocatorList></RemoteServer></discoveryServersList>";
+
 TEST(FastddsXml, clients_of_a_discovery_server_are_described) {
   for (const auto& [word, way] :
        {std::pair{"CLIENT", "server"}, {"SUPER_CLIENT", "super_client"}}) {
     const VendorProfile profile =
         profile_of(discovery("<discoveryProtocol>" + std::string{word} +
                              "</discoveryProtocol><clientAnnouncementPeriod><sec>1</sec>"
-                             "</clientAnnouncementPeriod>"));
+                             "</clientAnnouncementPeriod>" +
+                             one_server));
     EXPECT_EQ(setting(profile, "rtps/builtin/discovery_config/discoveryProtocol").knob,
               "discovery");
     ASSERT_NE(profile.changes.find("discovery"), nullptr);
@@ -174,8 +181,8 @@ TEST(FastddsXml, a_server_beside_its_clients_says_how_often_it_looks) {
     return fmt::format(
         "<participant profile_name='{}'{}><rtps><builtin><discovery_config><discoveryProtocol>{}"
         "</discoveryProtocol><clientAnnouncementPeriod><nanosec>50000000</nanosec>"
-        "</clientAnnouncementPeriod></discovery_config></builtin></rtps></participant>",
-        name, more, protocol);
+        "</clientAnnouncementPeriod>{}</discovery_config></builtin></rtps></participant>",
+        name, more, protocol, one_server);
   };
   const VendorProfile profile =
       profile_of("<profiles>" + participant("s", "SERVER", "") +
@@ -296,6 +303,78 @@ TEST(FastddsXml, each_version_lists_servers_in_its_own_way) {
             "error fastdds.later-version");
   EXPECT_EQ(remarks(profile_of(client(remote), of_3)).front().substr(0, 29),
             "error fastdds.earlier-version");
+}
+
+/// A client without the address of a server finds nobody; so do those of one that the model has
+/// not.
+TEST(FastddsXml, clients_need_a_server_that_can_be_reached) {
+  const auto found = [](const std::string& servers, const std::string& base = "fastdds-2.6.11") {
+    return fmt::format(
+        "{}", fmt::join(remarks(profile_of(
+                            discovery("<discoveryProtocol>CLIENT</discoveryProtocol>" + servers),
+                            {.profile = "", .base = base})),
+                        ", "));
+  };
+  const auto locator = [](const std::string& inside) {
+    return "<discoveryServersList><locator>" + inside + "</locator></discoveryServersList>";
+  };
+  const std::string outside = "error fastdds.outside";
+  EXPECT_EQ(found(one_server), "");
+  EXPECT_NE(found("").find(outside), std::string::npos);
+  EXPECT_NE(found("<discoveryServersList/>").find(outside), std::string::npos);
+  EXPECT_NE(found("", "fastdds-3.6").find(outside), std::string::npos);
+  const std::string udp = "<udpv4><address>192.0.2.5</address><port>11811</port></udpv4>";
+  EXPECT_EQ(found(locator(udp), "fastdds-3.6"), "");
+  EXPECT_NE(found(locator("<udpv4><port>11811</port></udpv4>"), "fastdds-3.6").find(outside),
+            std::string::npos);
+  EXPECT_NE(
+      found(locator("<tcpv4><address>192.0.2.5</address></tcpv4>"), "fastdds-3.6").find(outside),
+      std::string::npos);
+  EXPECT_NE(found(locator("<udpv4><address>[IP_ADDRESS]</address></udpv4>"), "fastdds-3.6")
+                .find("error fastdds.address"),
+            std::string::npos);
+  EXPECT_NE(found("<discoveryServersList><RemoteServer/></discoveryServersList>")
+                .find("error fastdds.remote-server"),
+            std::string::npos);
+  const std::string super = discovery("<discoveryProtocol>SUPER_CLIENT</discoveryProtocol>");
+  EXPECT_NE(fmt::format("{}", fmt::join(remarks(profile_of(super)), ", ")).find(outside),
+            std::string::npos);
+}
+
+/// Since 3.5 every client is told everything (Fast DDS #6272).
+TEST(FastddsXml, every_client_is_a_super_client_since_3_5) {
+  const std::string text = discovery(
+      "<discoveryProtocol>CLIENT</discoveryProtocol><discoveryServersList><locator><udpv4><address>"
+      "192.0.2.5</address></udpv4></locator></discoveryServersList>");
+  const auto way = [&](const char* base) {
+    return profile_of(text, {.profile = "", .base = base}).changes.find("discovery")->text;
+  };
+  EXPECT_EQ(way("fastdds-3.6"), "super_client");
+  EXPECT_EQ(way("fastdds-3.2"), "server");
+}
+
+TEST(FastddsXml, addresses_that_are_none_are_refused) {
+  const auto found = [](const std::string& address) {
+    const std::string peers = "<builtin><initialPeersList><locator><udpv4><address>" + address +
+                              "</address></udpv4></locator></initialPeersList></builtin>";
+    return fmt::format("{}", fmt::join(remarks(profile_of(document(peers))), ", "));
+  };
+  for (const char* address : {"", "[IP_ADDRESS]", "192.168.0.x", "ROBOT_IP", "1.2.3", "::one"}) {
+    EXPECT_NE(found(address).find("error fastdds.address"), std::string::npos) << address;
+  }
+  for (const char* address : {"192.0.2.1", "robot", "discovery_server", "zip-code.local"}) {
+    EXPECT_EQ(found(address).find("error"), std::string::npos) << address;
+  }
+}
+
+TEST(FastddsXml, a_lease_and_ports_are_values_of_the_profile) {
+  const VendorProfile lease =
+      profile_of(discovery("<leaseDuration><sec>300</sec></leaseDuration>"));
+  EXPECT_TRUE(change(lease, "spdp", "lease").starts_with("300s"));
+  const VendorProfile tries =
+      profile_of(document("<builtin><mutation_tries>3</mutation_tries></builtin>"));
+  ASSERT_NE(tries.changes.find("max_participants_per_host"), nullptr);
+  EXPECT_EQ(tries.changes.find("max_participants_per_host")->text, "4");
 }
 
 struct Refused {
