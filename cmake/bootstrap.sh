@@ -193,7 +193,10 @@ bootstrap() {
   # One build at a time in one folder. The lock ends with descriptor 9, and no later than this
   # process.
   exec 9>"$root/$2/.lock"
-  ! have flock || flock 9
+  if have flock && ! flock -n 9; then
+    say "waiting for another build in $2, or for tests that use it"
+    flock 9
+  fi
 
   prepared=
   if ! configured "$2" ${tests_line:+"$tests_line"}; then

@@ -32,9 +32,8 @@ Outcome run(CaptureArguments& arguments, Session& session) {
   answer.document.next = {
       {on_captures({"conform"}, arguments.files), "which library and version behaves so"}};
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(summary);
-  const bool complete = !Session::interrupted() && counting.last_initial_ns;
-  answer.document.complete = !Session::interrupted();
-  answer.document.exit_code = complete ? established : inconclusive;
+  answer.document.exit_code = counting.last_initial_ns ? established : inconclusive;
+  Session::note_interruption(answer.document);
   return answer;
 }
 

@@ -1,6 +1,7 @@
 // `stormproof compare-discovery SCENARIO`: the ways to discover side by side, as the deployment
 // grows, and the files to deploy each of them.
 #include <charconv>
+#include <set>
 
 #include <fmt/core.h>
 
@@ -60,6 +61,15 @@ std::optional<Complaint> complete(CompareArguments& arguments,
   const auto sizes = parse_sizes(arguments.sizes);
   if (!sizes) return Complaint{sizes.error()};
   request.sizes = *sizes;
+  const std::set<std::uint32_t> distinct{sizes->begin(), sizes->end()};
+  if (distinct.size() < sizes->size()) {
+    return Complaint{
+        fmt::format("--sizes {}: a size stands twice; expected each once", arguments.sizes)};
+  }
+  if (request.grows == compare::Grows::robots && distinct.contains(1)) {
+    return Complaint{fmt::format(
+        "--sizes {}: a single robot has nobody to discover; expected 2 or more", arguments.sizes)};
+  }
   if (arguments.limit.empty()) return std::nullopt;
   const auto limit = parse_duration("--limit", arguments.limit, longest_run);
   if (!limit) return Complaint{limit.error()};

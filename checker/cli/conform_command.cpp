@@ -180,7 +180,7 @@ Outcome hold_one(ConformArguments& arguments, const model::DdsProfile& dds, cons
       conversation, *result, dds, profile_name(arguments), until, tables::impossible_effects(dds)};
   Answer answer{document_of(report), to_json(report)};
   answer.document.exit_code = exit_code(result->verdict);
-  answer.document.complete = !Session::interrupted();
+  Session::note_interruption(answer.document);
   if (auto next = next_of(arguments, result->verdict)) answer.document.next = {*std::move(next)};
   write_beside(arguments, report, answer);
   return answer;

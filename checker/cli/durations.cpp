@@ -12,11 +12,27 @@ namespace stormproof::cli {
 using model::Nanoseconds;
 using model::config::Result;
 
+namespace {
+
+/// "24h" and "5min" in seconds; any other text as it is.
+std::string in_seconds(const std::string& text) {
+  for (const auto& [unit, seconds] : {std::pair{std::string_view{"min"}, 60}, {"h", 3'600}}) {
+    if (!text.ends_with(unit)) continue;
+    const auto count = model::config::parse_count(text.substr(0, text.size() - unit.size()));
+    if (count && *count <= std::numeric_limits<std::int64_t>::max() / seconds) {
+      return fmt::format("{}s", *count * seconds);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
 Result<Nanoseconds, std::string> parse_duration(const std::string& option, const std::string& text,
                                                 Nanoseconds most) {
   const std::string expected =
       fmt::format("expected a duration from 0 to {}s, such as 20ms", most.count() / 1'000'000'000);
-  const auto duration = model::config::parse_duration(text);
+  const auto duration = model::config::parse_duration(in_seconds(text));
   if (!duration) return fmt::format("{}: {}; {}", option, duration.error(), expected);
   if (*duration > most) return fmt::format("{}: '{}' is too long; {}", option, text, expected);
   return *duration;

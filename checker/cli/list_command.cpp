@@ -3,6 +3,7 @@
 
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/listing/listing.hpp"
 
 namespace stormproof::cli {
@@ -16,7 +17,8 @@ struct ListArguments {
 
 Outcome run(ListArguments& arguments, Session& /*session*/) {
   std::vector<std::string> kinds = arguments.kinds;
-  if (kinds.empty()) kinds.assign(listing::kinds().begin(), listing::kinds().end());
+  const bool is_all = kinds.empty();
+  if (is_all) kinds.assign(listing::kinds().begin(), listing::kinds().end());
   std::vector<listing::List> lists;
   for (const std::string& kind : kinds) {
     lists.push_back(listing::list_of(kind, model::config::SpecPath::standard()));
@@ -27,7 +29,17 @@ Outcome run(ListArguments& arguments, Session& /*session*/) {
     }
     return established;
   }
-  return Answer{document_of(lists), to_json(lists)};
+  Answer answer;
+  answer.json = to_json(lists);
+  if (is_all) {  // for people: mutants are thousands
+    std::erase_if(lists, [](const listing::List& one) { return one.kind == "mutants"; });
+  }
+  answer.document = document_of(lists);
+  if (is_all) {
+    answer.document.next = {{report::command_line({"list", "mutants"}),
+                             "the mistakes in machines and rules that mutate makes"}};
+  }
+  return answer;
 }
 
 void declare(Options& options, ListArguments& arguments) {
@@ -35,7 +47,7 @@ void declare(Options& options, ListArguments& arguments) {
       .texts("kinds", arguments.kinds,
              "scenarios, profiles, wireless, grids, exhibits, policies, machines, mutants, "
              "properties, "
-             "findings, captures or vendor; without one, all",
+             "findings, captures or vendor; without one, all (for people without mutants)",
              "KIND")
       .one_of({listing::kinds().begin(), listing::kinds().end()});
   options.flag("--names", arguments.names, "Only the names, one on a line");

@@ -43,6 +43,7 @@ sigset_t watched_signals() {
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGHUP);  // a session that ends; with nohup it is ignored, and never comes
   return set;
 }
 

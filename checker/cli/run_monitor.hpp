@@ -8,11 +8,11 @@
 
 namespace stormproof::cli {
 
-/// While it lives, Ctrl-C (SIGINT, SIGTERM) is remembered instead of ending the program; a second
-/// one ends it, without half-written files. The signals are blocked in every thread and taken from
-/// a descriptor by one of our own, so no handler that a library installs (Z3 does, around each
-/// query) can swallow them. That thread looks after memory, too: short of it, the work is stopped
-/// as by Ctrl-C, while there is some left for saying what is known.
+/// While it lives, Ctrl-C (SIGINT, SIGTERM, SIGHUP) is remembered instead of ending the program; a
+/// second one ends it, without half-written files. The signals are blocked in every thread and
+/// taken from a descriptor by one of our own, so no handler that a library installs (Z3 does,
+/// around each query) can swallow them. That thread looks after memory, too: short of it, the work
+/// is stopped as by Ctrl-C, while there is some left for saying what is known.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -83,11 +83,12 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   Answer answer;
   answer.document = document_of(report, description);
   answer.json = to_json(report, description);
-  if (const auto change = sensitivity::best_change(report, description.options.by)) {
+  if (const auto change =
+          sensitivity::best_change(report, description.options.by, description.dds)) {
     answer.document.next = {{report::command_line({"simulate"}) + " " +
                                  checker::words_of(arguments.scenario, arguments.overrides) +
                                  " --set " + report::shell_word(*change),
-                             "the change that helps most, alone"}};
+                             "of what a user can set the change that helps most, alone"}};
   }
   if (!report.finished) arguments.svg.discard();
   if (report.finished && arguments.svg.wanted()) {

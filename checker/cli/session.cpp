@@ -3,10 +3,20 @@
 
 #include <fmt/core.h>
 
+#include "checker/cli/exit_code.hpp"
+#include "checker/presentation/document/document.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::cli {
+
+void Session::note_interruption(report::Document& document) {
+  if (!interrupted()) return;
+  document.complete = false;
+  document.tone = report::Tone::warn;
+  document.exit_code = inconclusive;
+  document.answer = report::Text{"INTERRUPTED; so far: "} + document.answer;
+}
 
 std::function<bool(std::size_t, std::size_t)> Session::on_runs() {
   return [this, started = seconds()](std::size_t done, std::size_t all) {

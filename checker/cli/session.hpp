@@ -17,6 +17,9 @@
 namespace stormproof::model {
 struct Progress;
 }
+namespace stormproof::report {
+struct Document;
+}
 
 namespace stormproof::cli {
 
@@ -31,6 +34,9 @@ class Session {
   }
 
   [[nodiscard]] static bool interrupted() { return InterruptGuard::interrupted(); }
+
+  /// Of an answer that an interruption left incomplete: what it says is so far, whatever it is.
+  static void note_interruption(report::Document& document);
 
   /// For `on_progress` of everything: shows what `text()` says if it is time for that; returns
   /// whether to go on.

@@ -106,6 +106,7 @@ Outcome run(SimulateArguments& arguments, Session& session) {
   }
   Answer answer;
   answer.document = document_of(simulation);
+  Session::note_interruption(answer.document);
   answer.json = to_json(simulation);
   return answer;
 }

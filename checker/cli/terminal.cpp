@@ -28,6 +28,7 @@ report::Terminal standard_output() {
     return std::string_view{value == nullptr ? "" : value};
   };
   terminal.colours = variable("NO_COLOR").empty() && variable("TERM") != "dumb";
+  terminal.drops_columns = true;
   if (const auto columns = columns_of(STDOUT_FILENO)) {
     terminal.columns = std::clamp<std::size_t>(*columns, 60, 120);
   }

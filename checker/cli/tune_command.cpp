@@ -6,8 +6,10 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/cli/tune_files.hpp"
 #include "checker/engines/smt/claims.hpp"
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/tune_report.hpp"
 #include "checker/presentation/text/command_line.hpp"
@@ -32,6 +34,35 @@ struct TuneArguments {
   std::string output;        ///< a folder, or one file that ends in ".xml"
   OutputFile svg;
   bool check = false;
+};
+
+/// ", about 3 min left", once there are runs to tell it from.
+std::string time_left(double seconds, std::size_t runs, std::size_t about) {
+  if (runs < 8 || about <= runs) return {};
+  const double left = seconds / static_cast<double>(runs) * static_cast<double>(about - runs);
+  return left < 90 ? fmt::format(", about {:.0f} s left", left)
+                   : fmt::format(", about {:.0f} min left", left / 60);
+}
+
+/// Says once, if it takes more than two minutes, how long about it takes and how to have it
+/// shorter: not everybody has a line that shows progress.
+class Estimate {
+ public:
+  void look(double seconds, std::size_t runs, std::size_t about) {
+    constexpr double first_look = 5;
+    constexpr double long_run = 120;
+    if (was_said_ || seconds < first_look || runs < 8) return;
+    was_said_ = true;
+    const double all = seconds / static_cast<double>(runs) * static_cast<double>(about);
+    if (all < long_run) return;
+    say(
+        fmt::format("stormproof: about {} runs take about {:.0f} min here; --budget N makes fewer "
+                    "of the search (default 1200), --samples N of the comparison (default 40)",
+                    about, all / 60));
+  }
+
+ private:
+  bool was_said_ = false;
 };
 
 /// What is wrong with the options, or nothing; `arguments.options` are then complete.
@@ -106,14 +137,29 @@ std::optional<InputError> refuse_unwritable(const tune::Subject& subject) {
 
 /// What the report says around the study.
 tune::Context context_of(const TuneArguments& arguments, const tune::Subject& subject,
-                         const tune::Report& report, const TuneFiles& written) {
-  tune::Context context{arguments.scenario, subject, arguments.options, written.files, {}, {}, {}};
+                         const tune::Report& report, const TuneFiles& written, Session& session) {
+  tune::Context context{.scenario = arguments.scenario,
+                        .overrides = arguments.overrides,
+                        .subject = subject,
+                        .options = arguments.options,
+                        .files = written.files};
   context.files_wanted = !arguments.output.empty();
   if (report.answer != tune::Answer::better) return context;
   const tune::Row& best = report.rows[*report.recommended];
   context.prerequisites = tune::prerequisites(subject, best.scenario.dds);
   if (const auto file = written.files.find(best.name); file != written.files.end()) {
     context.repeat = repeat_line(arguments, subject, report, file->second);
+    context.loading = tune::how_to_load(subject.vendor, file->second);
+  }
+  trials::SampleOptions runs;
+  runs.samples = report.is_sampled ? trials::usual_samples : 1;
+  runs.first_seed = report.compared.first;
+  runs.start_jitter = arguments.options.start_jitter;
+  runs.threads = arguments.options.threads;
+  runs.on_progress = session.on_runs();
+  if (const auto after = trials::outlook_of(trials::sample_runs(best.scenario, runs))) {
+    context.is_cured = after->health() == exact::Health::fine;
+    context.after = after->headline() + ": " + after->sentence();
   }
   if (arguments.check) context.check = check_lines(report, context.newly_violated);
   return context;
@@ -127,17 +173,21 @@ Outcome run(TuneArguments& arguments, Session& session) {
   if (const auto error = refuse_unwritable(*subject)) return *error;
   TuneOutput output{arguments.output};
   if (const auto error = output.prepare()) return Complaint{*error};
-  arguments.options.on_progress = [&session](std::string_view doing, std::size_t runs,
-                                             std::size_t about) {
-    return session.proceed(
-        [&] { return fmt::format("{}: {} of about {} runs", doing, runs, about); });
+  arguments.options.on_progress = [&session, estimate = Estimate{}](std::string_view doing,
+                                                                    std::size_t runs,
+                                                                    std::size_t about) mutable {
+    estimate.look(session.seconds(), runs, about);
+    return session.proceed([&] {
+      return fmt::format("{}: {} of about {} runs{}", doing, runs, about,
+                         time_left(session.seconds(), runs, about));
+    });
   };
   const auto report = tune::tune(*subject, arguments.options);
   if (!report) return report.error();
   const std::string origin =
       fmt::format("stormproof tune on {} (seed {})", arguments.scenario, arguments.options.seed);
   const TuneFiles written = write_files(output, origin, *subject, *report);
-  const tune::Context context = context_of(arguments, *subject, *report, written);
+  const tune::Context context = context_of(arguments, *subject, *report, written, session);
   Answer answer;
   if (written.error) answer.complaint = *written.error;
   answer.document = document_of(*report, context);

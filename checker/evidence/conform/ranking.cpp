@@ -71,9 +71,16 @@ Result<Ranking> rank(const RankingRequest& request) {
       ranking.not_held.push_back({candidate.name, *std::move(why)});
       continue;
     }
-    if (interrupted) break;
+    if (interrupted) {
+      ++ranking.left_out;
+      continue;
+    }
     auto result = hold(request, candidate, interrupted);
     if (!result) return result.error();
+    if (interrupted && result->verdict == Verdict::inconclusive) {
+      ++ranking.left_out;
+      continue;
+    }
     ranking.ranked.push_back({candidate.name, *std::move(result)});
   }
   std::ranges::sort(ranking.ranked, {}, order);

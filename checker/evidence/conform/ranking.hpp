@@ -31,6 +31,7 @@ struct Ranking {
   std::vector<Ranked> ranked;     ///< best first
   std::size_t best = 0;           ///< how many of these the capture does not tell from the first
   std::vector<NotHeld> not_held;  ///< candidates that no capture can be held against
+  std::size_t left_out = 0;       ///< candidates that an interruption left no time for
 
   /// That of the best; inconclusive if there is none.
   [[nodiscard]] Verdict verdict() const;

@@ -65,9 +65,10 @@ void describe_runs(Cell& cell, const model::Scenario& scenario) {
   if (!outlook) return;
   cell.outcome = outlook->headline();
   cell.health = outlook->median().health;
+  if (cell.interrupted) cell.outcome += fmt::format(", interrupted after {}", cell.runs.size());
   const auto failed = static_cast<std::size_t>(
       std::ranges::count_if(cell.runs, [&](const Sample& run) { return fails(run, scenario); }));
-  cell.breaks = 2 * failed >= cell.runs.size();
+  cell.breaks = !cell.interrupted && 2 * failed >= cell.runs.size();
 }
 
 class Comparison {
@@ -194,8 +195,9 @@ class Comparison {
     for (std::size_t k = 0; k < report_.rows.size(); ++k) {
       Row& row = report_.rows[k];
       Cell& cell = row.cells.back();
+      cell.interrupted = cell.not_run.empty() && cell.runs.size() < report_.samples;
       describe_runs(cell, instances[k].scenario);
-      if (cell.not_run.empty() && cell.runs.empty()) cell.not_run = "interrupted";
+      if (cell.interrupted && cell.runs.empty()) cell.not_run = "interrupted";
       if (cell.breaks && !row.breaks_at) row.breaks_at = size;
     }
   }

@@ -42,10 +42,11 @@ struct Cell {
   std::vector<trials::Sample> runs;  ///< in the order of their seeds
   std::array<statistics::Quantiles, figure_count> figures;
   std::size_t completed = 0;
-  std::string outcome;     ///< "FINE", "STORM in 4 of 5 runs", …; empty: no runs
-  exact::Health health{};  ///< of the middle run; only if there are runs
-  bool breaks = false;     ///< half of the runs storm, or miss the limit
-  std::string not_run;     ///< why there are no runs; empty: there are
+  std::string outcome;       ///< "FINE", "STORM in 4 of 5 runs", …; empty: no runs
+  exact::Health health{};    ///< of the middle run; only if there are runs
+  bool breaks = false;       ///< half of the runs storm, or miss the limit
+  std::string not_run;       ///< why there are no runs; empty: there are
+  bool interrupted = false;  ///< it has not all runs that it was to have
 };
 
 struct Row {

@@ -8,6 +8,7 @@
 #include "checker/experiments/compare/compare_report.hpp"
 #include "checker/experiments/trials/tone_of_health.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/document/unreached.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -50,6 +51,9 @@ class Builder {
   Document build() {
     head();
     at_own_size();
+    if (std::string text = report::unreached(report_.candidates.scenario); !text.empty()) {
+      document_.blocks.emplace_back(Paragraph{"As it is: " + text, Tone::warn});
+    }
     as_it_grows();
     if (report_.sizes.size() > 1) plots();
     what_to_do();
@@ -64,18 +68,31 @@ class Builder {
     return row.cells[report_.own_index()];
   }
 
-  /// The candidate whose median completion is least at the own size, of those that do not break.
-  [[nodiscard]] const Row* fastest() const {
+  /// The candidate whose median completion is least at the own size; of those alone that do not
+  /// break, if that is asked.
+  [[nodiscard]] const Row* fastest(bool without_breaking) const {
     const Row* best = nullptr;
     const auto completion = [this](const Row& row) {
       return figure_of(own_cell(row), Figure::completion).median;
     };
     for (const Row& row : report_.rows) {
       const Cell& cell = own_cell(row);
-      if (cell.runs.empty() || cell.breaks || !completion(row)) continue;
+      if (cell.runs.empty() || (without_breaking && cell.breaks) || !completion(row)) continue;
       if (best == nullptr || *completion(row) < *completion(*best)) best = &row;
     }
     return best;
+  }
+
+  /// Whether every run of the row at the own size, or at all sizes, was made or is not to be made.
+  [[nodiscard]] bool is_known(const Cell& cell) const {
+    return cell.runs.size() == report_.samples || (cell.runs.empty() && !cell.interrupted);
+  }
+  [[nodiscard]] bool is_known(const Row& row) const {
+    return std::ranges::all_of(row.cells, [this](const Cell& cell) { return is_known(cell); });
+  }
+  [[nodiscard]] std::size_t known_at_own_size() const {
+    return static_cast<std::size_t>(std::ranges::count_if(
+        report_.rows, [this](const Row& row) { return is_known(own_cell(row)); }));
   }
 
   [[nodiscard]] const Row* own() const {
@@ -88,23 +105,39 @@ class Builder {
     document_.title = "stormproof compare-discovery " + request_.scenario;
     document_.complete = !report_.interrupted;
     document_.exit_code = report_.interrupted ? 3 : 0;
-    const Row* best = fastest();
-    const Row* now = own();
-    document_.tone = report_.interrupted || best == nullptr ? Tone::warn : Tone::info;
+    const Row* best = fastest(false);
+    document_.tone = report_.interrupted || fastest(true) == nullptr ? Tone::warn : Tone::info;
     document_.subject =
         fmt::format("{}: {} ways to discover on the same start times, {} {}", request_.scenario,
                     report_.rows.size(), fmt::join(report_.sizes, ", "), words_of(report_.grows));
-    if (best == nullptr) {
-      document_.answer = fmt::format("With {} {} every way to discover breaks.", report_.own_size,
-                                     words_of(report_.grows));
-    } else {
-      const Quantiles& least = figure_of(own_cell(*best), Figure::completion);
+    const std::string where = fmt::format("With {} {}", report_.own_size, words_of(report_.grows));
+    const std::size_t known = known_at_own_size();
+    if (known < report_.rows.size()) {
       document_.answer =
-          fmt::format("With {} {} {} is fastest: discovery completes after {} at the median{}.",
-                      report_.own_size, words_of(report_.grows), best->candidate.name,
-                      time_text(least.median), beside(best, now));
+          fmt::format("INTERRUPTED after {} of {} ways at this size.{}", known, report_.rows.size(),
+                      best == nullptr ? "" : " So far: " + answer(where, *best));
+    } else if (best == nullptr) {
+      document_.answer = fmt::format("{} no way to discover completes within {}.", where,
+                                     report::duration(report_.limit));
+    } else {
+      document_.answer = answer(where, *best);
     }
     document_.elaboration = furthest();
+  }
+
+  /// Which way is fastest, and, if that one breaks, which is of those that do not.
+  [[nodiscard]] std::string answer(const std::string& where, const Row& best) const {
+    const Cell& least = own_cell(best);
+    std::string text =
+        fmt::format("{} {} is fastest: discovery completes after {} at the median{}", where,
+                    best.candidate.name, time_text(figure_of(least, Figure::completion).median),
+                    beside(&best, own()));
+    if (!least.breaks) return text + ".";
+    const Row* whole = fastest(true);
+    if (whole == nullptr) return text + fmt::format(". It breaks ({}), as all do.", least.outcome);
+    return text + fmt::format(". It breaks ({}); of those that do not, {} is fastest, after {}.",
+                              least.outcome, whole->candidate.name,
+                              time_text(figure_of(own_cell(*whole), Figure::completion).median));
   }
 
   [[nodiscard]] std::string beside(const Row* best, const Row* now) const {
@@ -119,10 +152,13 @@ class Builder {
 
   [[nodiscard]] std::string furthest() const {
     std::vector<std::string> whole;
+    bool all_known = true;
     for (const Row& row : report_.rows) {
-      if (has_runs(row) && !row.breaks_at) whole.push_back(row.candidate.name);
+      all_known = all_known && is_known(row);
+      if (has_runs(row) && is_known(row) && !row.breaks_at) whole.push_back(row.candidate.name);
     }
     if (report_.sizes.size() < 2) return {};
+    if (!all_known && whole.empty()) return {};
     return whole.empty() ? fmt::format("All of them break up to {} {}.", report_.sizes.back(),
                                        words_of(report_.grows))
                          : fmt::format("Up to {} {} these do not break: {}.", report_.sizes.back(),
@@ -173,7 +209,7 @@ class Builder {
     for (const std::uint32_t size : report_.sizes) {
       table.columns.push_back({std::to_string(size), Column::Align::right});
     }
-    table.columns.push_back({"breaks at", Column::Align::right});
+    table.columns.push_back({.head = "breaks at", .align = Column::Align::right, .stays = true});
     table.wide = true;
     table.caption = fmt::format("medians as {} grow", words_of(report_.grows));
     for (const Row& row : report_.rows) {

@@ -51,21 +51,17 @@ std::string server_environment(const Candidate& candidate, bool is_super) {
   return text;
 }
 
-std::string fastdds_environment(const Candidate& candidate, const std::string& xml) {
-  std::string text = head(candidate) + "export RMW_IMPLEMENTATION=rmw_fastrtps_cpp\n";
-  if (xml.empty()) return text + "unset ROS_DISCOVERY_SERVER ROS_SUPER_CLIENT\n";
-  text += fmt::format(
-      "export FASTRTPS_DEFAULT_PROFILES_FILE=$PWD/{}  # Fast DDS 2\n"
-      "export FASTDDS_DEFAULT_PROFILES_FILE=$PWD/{}   # Fast DDS 3\n",
-      xml, xml);
+std::string environment_with(const Candidate& candidate, vendor::Vendor whose,
+                             const std::string& xml) {
+  std::string text = head(candidate);
+  for (const std::string& line : tune::how_to_load(whose, xml)) text += line + "\n";
   return text;
 }
 
-std::string cyclone_environment(const Candidate& candidate, const std::string& xml) {
-  return head(candidate) + fmt::format(
-                               "export RMW_IMPLEMENTATION=rmw_cyclonedds_cpp\n"
-                               "export CYCLONEDDS_URI=file://$PWD/{}\n",
-                               xml);
+std::string plain_environment(const Candidate& candidate) {
+  return head(candidate) +
+         "export RMW_IMPLEMENTATION=rmw_fastrtps_cpp\n"
+         "unset ROS_DISCOVERY_SERVER ROS_SUPER_CLIENT\n";
 }
 
 /// The XML of a profile that is built on a preset.
@@ -106,15 +102,13 @@ Result<std::vector<DeploymentFile>> deployment_files(const Candidate& candidate,
     return files;
   }
   if (candidate.id == "simple") {
-    files.push_back({environment, fastdds_environment(candidate, {})});
+    files.push_back({environment, plain_environment(candidate)});
     return files;
   }
   auto xml = xml_of(candidate, dds, *whose, specs);
   if (!xml) return xml.error();
   files.push_back({xml_name, *std::move(xml)});
-  files.push_back({environment, *whose == vendor::Vendor::cyclonedds
-                                    ? cyclone_environment(candidate, xml_name)
-                                    : fastdds_environment(candidate, xml_name)});
+  files.push_back({environment, environment_with(candidate, *whose, xml_name)});
   return files;
 }
 

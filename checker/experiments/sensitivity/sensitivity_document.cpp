@@ -9,11 +9,14 @@
 #include "checker/experiments/sensitivity/sensitivity_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "model/config/vendor/vendor_knobs.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::sensitivity {
 
 namespace {
 
+namespace vendor = model::config::vendor;
 using report::Column;
 using report::Document;
 using report::Paragraph;
@@ -263,11 +266,30 @@ class Builder {
 
 }  // namespace
 
-std::optional<std::string> best_change(const Report& report, Measure by) {
+namespace {
+
+/// Whether a user of the library can set it. The paper's model is nobody's: there it is everything
+/// but the size of what is sent.
+bool is_settable(std::string_view key, const model::DdsProfile& dds) {
+  constexpr std::string_view prefix = "dds.";
+  if (!key.starts_with(prefix)) return false;
+  key.remove_prefix(prefix.size());
+  const auto& whose = model::traits_of(dds).vendor;
+  if (!whose) return key.starts_with("s") && !key.ends_with("_bytes");
+  const auto knobs = vendor::vendor_knobs(
+      *whose == model::vendor::cyclonedds ? vendor::Vendor::cyclonedds : vendor::Vendor::fastdds);
+  const auto found = std::ranges::find(knobs, key, &vendor::VendorKnob::key);
+  return found != knobs.end() && found->maximum > 0;
+}
+
+}  // namespace
+
+std::optional<std::string> best_change(const Report& report, Measure by,
+                                       const model::DdsProfile& dds) {
   std::optional<std::string> best;
   double least = 0;
   for (const KnobResult& knob : report.knobs) {
-    if (!knob.key.starts_with("dds.s")) continue;  // what a descriptor holds is no choice
+    if (!is_settable(knob.key, dds)) continue;
     for (const auto& level : knob.levels) {
       if (!level || of(level->effects, by).median >= least) continue;
       least = of(level->effects, by).median;

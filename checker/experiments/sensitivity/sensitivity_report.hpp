@@ -24,9 +24,10 @@ struct Description {
   [[nodiscard]] bool is_sampled() const { return has_schedule || options.start_jitter.count() > 0; }
 };
 
-/// "dds.sedp.heartbeat_period=800ms": of the changes of the DDS profile the one that makes the
-/// measure least; nothing if none makes it less.
-[[nodiscard]] std::optional<std::string> best_change(const Report& report, Measure by);
+/// "dds.sedp.heartbeat_period=800ms": of the changes of the DDS profile that its user can make the
+/// one that makes the measure least; nothing if none makes it less.
+[[nodiscard]] std::optional<std::string> best_change(const Report& report, Measure by,
+                                                     const model::DdsProfile& dds);
 
 [[nodiscard]] report::Document document_of(const Report& report, const Description& description);
 [[nodiscard]] nlohmann::ordered_json to_json(const Report& report, const Description& description);

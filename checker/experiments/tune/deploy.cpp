@@ -48,8 +48,9 @@ Result<std::string> deployable(const Subject& subject, const DdsProfile& profile
   auto xml =
       vendor::write_vendor_xml(subject.vendor, subject.preset, subject.base, settings, comment);
   if (!xml) return xml;
-  const auto again = read_back(*xml, subject.preset, specs);
+  auto again = read_back(*xml, subject.preset, specs);
   if (!again) return again.error();
+  if (!profile.spdp.lease) again->spdp.lease.reset();  // raised with the period, if at all
   if (without_notes(*again) != without_notes(profile)) {
     return InputError{written, "does not give the profile that it was written for"};
   }
@@ -88,6 +89,16 @@ std::vector<std::string> prerequisites(const Subject& subject, const DdsProfile&
                     setting, effect));
   }
   return list;
+}
+
+std::vector<std::string> how_to_load(vendor::Vendor vendor, const std::string& file) {
+  if (vendor == vendor::Vendor::cyclonedds) {
+    return {"export RMW_IMPLEMENTATION=rmw_cyclonedds_cpp",
+            fmt::format("export CYCLONEDDS_URI=file://$PWD/{}", file)};
+  }
+  return {"export RMW_IMPLEMENTATION=rmw_fastrtps_cpp",
+          fmt::format("export FASTRTPS_DEFAULT_PROFILES_FILE=$PWD/{}  # Fast DDS 2", file),
+          fmt::format("export FASTDDS_DEFAULT_PROFILES_FILE=$PWD/{}   # Fast DDS 3", file)};
 }
 
 std::string reference_to(const std::string& file, const Subject& subject) {

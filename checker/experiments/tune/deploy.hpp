@@ -25,6 +25,10 @@ namespace stormproof::tune {
 [[nodiscard]] std::vector<std::string> prerequisites(const Subject& subject,
                                                      const model::DdsProfile& profile);
 
+/// The lines of a shell that make ROS 2 nodes read the file, which is in the current folder.
+[[nodiscard]] std::vector<std::string> how_to_load(model::config::vendor::Vendor vendor,
+                                                   const std::string& file);
+
 /// "FILE.xml", or "FILE.xml@PRESET" where the reader would take another version for granted.
 [[nodiscard]] std::string reference_to(const std::string& file, const Subject& subject);
 

@@ -56,6 +56,7 @@ std::string to_svg(const Report& report, const Context& context) {
   chart.x.label = "completion";
   chart.x.unit = "s";
   chart.y.label = "messages";
+  chart.width = 2 * plot::beside;
 
   plot::Series tried = points("tried (seeds of the search)");
   for (const Cost& cost : report.tried) {

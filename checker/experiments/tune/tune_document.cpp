@@ -8,8 +8,10 @@
 
 #include "checker/experiments/tune/tune_report.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
+#include "checker/presentation/text/command_line.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/verification/check/next_steps.hpp"
 #include "model/config/tree/quantities.hpp"
 
 namespace stormproof::tune {
@@ -80,6 +82,7 @@ class Builder {
     settings();
     deployment();
     notes();
+    next();
     report::add_unmodelled(document_, context_.subject.scenario.dds);
     return std::move(document_);
   }
@@ -103,10 +106,11 @@ class Builder {
     document_.title = "stormproof tune " + context_.scenario;
     document_.complete = !interrupted;
     document_.exit_code = interrupted ? 3 : context_.newly_violated ? 1 : 0;
-    document_.tone = interrupted                        ? Tone::warn
-                     : context_.newly_violated          ? Tone::bad
-                     : report_.answer == Answer::better ? Tone::good
-                                                        : Tone::info;
+    document_.tone = interrupted               ? Tone::warn
+                     : context_.newly_violated ? Tone::bad
+                     : report_.answer == Answer::better
+                         ? (context_.is_cured ? Tone::good : Tone::warn)
+                         : Tone::info;
     document_.subject = fmt::format(
         "{}: settings of {} ({}) that a user can change", context_.scenario,
         model::config::vendor::name_of(context_.subject.vendor), context_.subject.preset);
@@ -129,11 +133,32 @@ class Builder {
           time(unchanged.summary.completion_ns.median),
           has_front() ? " What can be had for it is on the front." : "");
     }
-    return fmt::format("BETTER: {} → {} (median) with {}: completion {}, messages {}.",
+    return fmt::format("BETTER: {} → {} (median) with {}: completion {}, messages {}. {}",
                        time(unchanged.summary.completion_ns.median),
                        time(best->summary.completion_ns.median), settings_text(*best),
                        shift_text(best->against_unchanged->completion),
-                       shift_text(best->against_unchanged->messages));
+                       shift_text(best->against_unchanged->messages), afterwards());
+  }
+
+  /// Whether it works with the recommended setting.
+  [[nodiscard]] std::string afterwards() const {
+    if (context_.after.empty()) return {};
+    if (context_.is_cured) return "With it: " + context_.after + ".";
+    return fmt::format("With it, still: {}. Settings alone do not cure it.", context_.after);
+  }
+
+  /// What comes after: the file, and other ways to discover if settings do not do.
+  void next() {
+    if (report_.answer == Answer::interrupted) return;
+    const std::string words = checker::words_of(context_.scenario, context_.overrides);
+    if (!context_.files_wanted && report_.answer == Answer::better) {
+      document_.next.push_back({report::program() + " tune " + words + " -o tuned",
+                                "the same, and the files to deploy"});
+    }
+    if (!context_.is_cured || report_.answer == Answer::nothing_better) {
+      document_.next.push_back({report::program() + " compare-discovery " + words,
+                                "other ways to discover, which may do what settings do not"});
+    }
   }
 
   void searched() {
@@ -226,6 +251,7 @@ class Builder {
           add("note", fmt::format("{}: {}.", element(change), change.note));
         }
       }
+      for (const std::string& line : context_.loading) add("load", report::code(line));
       if (!context_.repeat.empty()) add("measure", report::code(context_.repeat));
     }
     for (const std::string& line : context_.check) add("check", line);

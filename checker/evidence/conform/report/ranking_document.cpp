@@ -31,6 +31,7 @@ class RankingPage {
   [[nodiscard]] std::string answer() const {
     const std::string untold =
         best_.size() > 1 ? "; this capture does not tell them apart" : std::string{};
+    if (ranking_.left_out > 0) return so_far();
     switch (ranking_.verdict()) {
       case Verdict::conforms:
         return best_.size() > 1
@@ -70,6 +71,20 @@ class RankingPage {
   }
 
  private:
+  /// What is known when not all profiles were tried.
+  [[nodiscard]] std::string so_far() const {
+    const std::size_t tried = ranking_.ranked.size();
+    std::string text =
+        fmt::format("INTERRUPTED after {} of {} profiles", tried, tried + ranking_.left_out);
+    if (best_.empty()) return text;
+    const Conformance& first = ranking_.ranked.front().result;
+    return text + (first.verdict == Verdict::conforms
+                       ? fmt::format("; {} explain{} every message", listed(best_),
+                                     best_.size() > 1 ? "" : "s")
+                       : fmt::format("; of these {} come{} closest, with {}", listed(best_),
+                                     best_.size() > 1 ? "" : "s", explained(first)));
+  }
+
   static report::Text verdict_badge(Verdict verdict) {
     switch (verdict) {
       case Verdict::conforms:
@@ -116,7 +131,8 @@ report::Document document_of(const RankingReport& report) {
   const RankingPage page{report};
   report::Document document;
   document.title = "stormproof conform";
-  document.tone = tone_of_ranking(report.ranking.verdict());
+  document.tone =
+      report.ranking.left_out > 0 ? Tone::warn : tone_of_ranking(report.ranking.verdict());
   document.answer = page.answer();
   const auto& ranked = report.ranking.ranked;
   document.elaboration = fmt::format(
@@ -140,7 +156,8 @@ report::Document document_of(const RankingReport& report) {
         report::Paragraph{fits ? "How it explains them:" : "All that it does not explain:"});
     document.blocks.emplace_back(report::Command{report.next});
   }
-  document.complete = report.ranking.verdict() != Verdict::inconclusive;
+  document.complete =
+      report.ranking.left_out == 0 && report.ranking.verdict() != Verdict::inconclusive;
   return document;
 }
 

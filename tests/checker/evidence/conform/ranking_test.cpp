@@ -63,6 +63,24 @@ TEST(Ranking, FindsCyclone) {
   EXPECT_EQ(ranking->ranked.front().name, "cyclonedds-0.10-multicast");
 }
 
+/// Whoever tried one profile has not found out that no other one fits.
+TEST(Ranking, SaysAfterHowManyProfilesItWasInterrupted) {
+  const auto conversation = shipped("cyclone0102_veth_np2_ne20_r0");
+  RankingRequest request{conversation, INT64_MAX, {}, profiles()};
+  std::string first;
+  request.progress = [&first](const std::string& name, std::size_t, std::size_t) {
+    if (first.empty()) first = name;
+    return name == first;
+  };
+  const auto ranking = rank(request);
+  ASSERT_TRUE(ranking);
+  EXPECT_EQ(ranking->ranked.size(), 1U);
+  EXPECT_EQ(ranking->left_out, 13U);
+  EXPECT_TRUE(answer(conversation, *ranking).starts_with("INTERRUPTED after 1 of 14 profiles"))
+      << answer(conversation, *ranking);
+  EXPECT_FALSE(document_of(RankingReport{conversation, *ranking, {}, INT64_MAX, {}, {}}).complete);
+}
+
 TEST(Ranking, ComesClosestIfNothingFits) {
   const auto conversation = shipped("cyclone0102_veth_np2_ne20_r0");
   std::vector<Candidate> of_fastdds = profiles();
@@ -90,8 +108,10 @@ TEST(Ranking, Stops) {
   request.progress = [](const std::string&, std::size_t, std::size_t) { return false; };
   const auto ranking = rank(request);
   ASSERT_TRUE(ranking);
-  EXPECT_EQ(ranking->ranked.size(), 1U);
+  EXPECT_TRUE(ranking->ranked.empty());  // half of a profile is none
+  EXPECT_EQ(ranking->left_out, 14U);
   EXPECT_EQ(ranking->verdict(), Verdict::inconclusive);
+  EXPECT_EQ(answer(conversation, *ranking), "INTERRUPTED after 0 of 14 profiles");
 }
 
 TEST(Vacuous, ACaptureCutBeforeTheFirstDescriptorDecidesNothing) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/experiments/compare/compare_report.hpp"
 #include "checker/experiments/compare/deployment_files.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
 #include "model/config/scenario_file.hpp"
@@ -103,6 +104,31 @@ TEST(CompareDiscovery, WhatBreaksIsNotRunAtLargerSizes) {
   EXPECT_FALSE(server.cells[1].not_run.empty());
   EXPECT_TRUE(server.cells[1].runs.empty());
   EXPECT_FALSE(row_of(report, "simple").breaks_at);
+}
+
+/// Fastest is fastest, whether or not it breaks; the one that does not is named beside it.
+TEST(CompareDiscovery, NamesTheFastestAndTheFastestThatDoesNotBreak) {
+  Request request = request_of({});
+  Report report = compared(request);
+  Row* const simple = &*std::ranges::find_if(
+      report.rows, [](const Row& row) { return row.candidate.id == "simple"; });
+  const auto fastest = [&] { return document_of(report, request).answer.plain(); };
+  for (Row& row : report.rows) {  // every other way takes a second longer
+    Cell& cell = row.cells[report.own_index()];
+    if (&row == simple || cell.runs.empty()) continue;
+    auto& median = cell.figures[static_cast<std::size_t>(Figure::completion)].median;
+    if (median) *median += 1e9;
+  }
+  EXPECT_NE(fastest().find("simple is fastest"), std::string::npos) << fastest();
+  Cell& cell = simple->cells[report.own_index()];
+  cell.breaks = true;
+  EXPECT_NE(fastest().find("simple is fastest"), std::string::npos) << fastest();
+  EXPECT_NE(fastest().find("of those that do not, "), std::string::npos) << fastest();
+  cell.runs.clear();
+  cell.interrupted = true;
+  report.interrupted = true;
+  EXPECT_TRUE(fastest().starts_with("INTERRUPTED after ")) << fastest();
+  EXPECT_EQ(fastest().find("breaks"), std::string::npos) << fastest();
 }
 
 TEST(CompareDiscovery, OneProcessMattersWhereThereAreSeveral) {
