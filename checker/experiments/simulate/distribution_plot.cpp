@@ -40,6 +40,7 @@ std::string distribution_plot(const std::vector<trials::Sample>& samples,
       "then.";
   chart.x = {.label = "completion", .unit = "s"};
   chart.y = {.label = "runs complete by then", .min = 0.0};
+  chart.width = 2 * plot::beside;
   if (end(*runs.back()) > 5 * end(*runs.front())) chart.x.scale = plot::Scale::log;
   plot::Series line{.mark = plot::Mark::line, .color = 4};
   plot::Series over{.name = "not complete at the limit", .mark = plot::Mark::crosses, .color = 8};
