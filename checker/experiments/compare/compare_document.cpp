@@ -77,7 +77,8 @@ class Builder {
     };
     for (const Row& row : report_.rows) {
       const Cell& cell = own_cell(row);
-      if (cell.runs.empty() || (without_breaking && cell.breaks) || !completion(row)) continue;
+      if (cell.runs.empty() || !is_known(cell)) continue;  // half of the runs is no median
+      if ((without_breaking && cell.breaks) || !completion(row)) continue;
       if (best == nullptr || *completion(row) < *completion(*best)) best = &row;
     }
     return best;
