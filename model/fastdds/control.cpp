@@ -11,21 +11,20 @@ namespace {
 Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
-ControlRelations::ControlRelations(const RunState& run)
-    : topology_{run.topology},
-      lookups_{looks_up_types(run.scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
-  const std::uint32_t participants = run.scenario.deployment.size();
-  for (std::uint32_t pair = 0; pair < run.topology.pair_count(); ++pair) {
+ControlRelations::ControlRelations(const Topology& topology, const Scenario& scenario)
+    : topology_{topology},
+      lookups_{looks_up_types(scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
+  const std::uint32_t participants = scenario.deployment.size();
+  for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
     first_relation_.push_back(count());
-    const Pair& p = run.topology.pair(pair);
+    const Pair& p = topology.pair(pair);
     std::uint32_t relations = lookups_;
     if (p.cross_host) relations += 1;  // a Discovery Server has no topics
     if (p.cross_host && p.source != participants && p.destination != participants) {
       relations +=
           topic::first_user - 1 +
-          std::min(
-              run.topology.descriptor_count(p.source, Stream::pub) - default_publications,
-              run.topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions);
+          std::min(topology.descriptor_count(p.source, Stream::pub) - default_publications,
+                   topology.descriptor_count(p.destination, Stream::sub) - default_subscriptions);
     }
     pairs_.resize(pairs_.size() + relations, pair);
   }

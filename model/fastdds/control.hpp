@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/composition/control.hpp"
 #include "model/engine/packet.hpp"
-#include "model/engine/run_state.hpp"
+#include "model/engine/topology.hpp"
 #include "model/fastdds/endpoints.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::model::fastdds {
 
@@ -25,7 +25,7 @@ struct ControlSide {
 
 class ControlRelations {
  public:
-  explicit ControlRelations(const RunState& run);
+  ControlRelations(const Topology& topology, const Scenario& scenario);
 
   [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(pairs_.size()); }
   /// Those of a pair: from the first one until before the second.

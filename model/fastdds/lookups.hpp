@@ -99,7 +99,7 @@ class ControlSteps {
 
  public:
   explicit ControlSteps(const RunState& run)
-      : control_{run},
+      : control_{run.topology, run.scenario},
         has_types_{run.scenario.deployment.types.has_value()},
         lookups_{run.scenario.deployment, run.topology} {}
 

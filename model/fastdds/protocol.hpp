@@ -40,7 +40,7 @@ struct Columns : PlainColumns {
   template <Owner owner>
   static std::uint32_t rows(const RunState& run) {
     if constexpr (owner == comp::owner::control_relation) {
-      return ControlRelations{run}.count();
+      return ControlRelations{run.topology, run.scenario}.count();
     } else if constexpr (owner == comp::owner::control_writer) {
       return control_writers * run.topology.participant_count();
     } else {

@@ -1,7 +1,8 @@
 // law.control: the relations of which only HEARTBEATs and ACKNACKs are modelled. A writer side
-// sends a HEARTBEAT when it opens and when an initial ACKNACK calls for it, and no other; a reader
-// side answers what comes within one response delay once, and until it has seen a HEARTBEAT asks by
-// itself after τ_I, and then after twice as long each time (or as long).
+// sends a HEARTBEAT when it opens and when an initial ACKNACK calls for it, and no other but about
+// what it says of types; a reader side answers what comes within one response delay once, and until
+// it has seen a HEARTBEAT asks by itself after τ_I, and then after twice as long each time (or as
+// long).
 #include <algorithm>
 #include <map>
 
@@ -58,7 +59,8 @@ class ControlWatch : public Observer {
     }
   }
   void received(const model::Packet& packet, Number) override {
-    if (packet.kind == PacketKind::user_heartbeat) {
+    const bool rides = packet.kind == PacketKind::lookup && packet.heartbeats > 0;
+    if (packet.kind == PacketKind::user_heartbeat || rides) {
       Relation& side = relations_[packet.detail];
       if (!side.reader_open) return;
       judge(packet.detail, side, now());
@@ -96,7 +98,11 @@ class ControlWatch : public Observer {
     }
   }
   void note(const model::Packet& packet) {
-    if (packet.kind == PacketKind::user_heartbeat) --relations_[packet.detail].heartbeats_due;
+    const bool is_of_samples =  // they say more, which is for law.lookups to judge
+        kind() == model::EventKind::lookup_expiry || kind() == model::EventKind::async_run;
+    if (packet.kind == PacketKind::user_heartbeat && !is_of_samples) {
+      --relations_[packet.detail].heartbeats_due;
+    }
     if (packet.kind != PacketKind::user_acknack) return;
     Relation& side = relations_[packet.detail];
     const std::optional<Nanoseconds>& asked = side.asked;

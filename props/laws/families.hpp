@@ -26,6 +26,8 @@ quiet_laws();  ///< a network without delays or losses to speak of
 [[nodiscard]] std::span<const Law> request_laws();       ///< what is asked for, and when it comes
 [[nodiscard]] std::span<const Law> reminder_laws();      ///< whoever lacks something is asked
 [[nodiscard]] std::span<const Law> control_laws();       ///< relations without DATA
+[[nodiscard]] std::span<const Law> lookup_laws();        ///< types that are not known
+[[nodiscard]] std::span<const Law> sample_laws();        ///< what is said of them, to everybody
 [[nodiscard]] std::span<const Law> accounting_laws();    ///< totals against what happened
 [[nodiscard]] std::span<const Law> causality_laws();     ///< effects and causes
 [[nodiscard]] std::span<const Law> service_laws();       ///< queue, order and losses

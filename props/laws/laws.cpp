@@ -13,7 +13,8 @@ std::span<const Law> laws() {
     for (const auto family :
          {repetition_laws, naming_laws, time_laws, byte_laws, workload_laws, quiet_laws,
           obligation_laws, introduction_laws, opening_laws, request_laws, reminder_laws,
-          control_laws, accounting_laws, causality_laws, service_laws, bound_laws, adaptive_laws}) {
+          control_laws, lookup_laws, sample_laws, accounting_laws, causality_laws, service_laws,
+          bound_laws, adaptive_laws}) {
       const std::span<const Law> part = family();
       list.insert(list.end(), part.begin(), part.end());
     }

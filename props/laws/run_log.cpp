@@ -10,6 +10,7 @@
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/submessage.hpp"
 #include "model/fastdds/endpoints.hpp"
+#include "model/fastdds/relayed.hpp"
 #include "props/monitors/describe.hpp"
 
 namespace stormproof::props {
@@ -171,8 +172,33 @@ void RunLog::note_packet(const model::Packet& packet) {
   }
   note(packet.heartbeats);
   note(packet.initial_acknack ? 1 : 0);
+  note_numbers(packet);
+  if (packet.relayed) note_relayed(*packet.relayed);
   if (packet.submessages == nullptr) return;
   for (const model::Submessage& each : *packet.submessages) note_submessage(each);
+}
+
+/// What it announces or claims, and what counts as repeated; control-only relations have numbers
+/// that follow from the pair.
+void RunLog::note_numbers(const model::Packet& packet) {
+  using enum model::PacketKind;
+  const bool claims = packet.kind == data || packet.kind == heartbeat || packet.kind == acknack;
+  if (claims) note(packet.detail);
+  note(packet.initial_data);
+  note(packet.repair_data);
+  note((packet.from_repair ? 2U : 0U) + (packet.carries_heartbeat ? 1U : 0U));
+}
+
+void RunLog::note_relayed(const model::Relayed& relayed) {
+  note((relayed.has_data ? 4U : 0U) + (relayed.is_announcement ? 2U : 0U) +
+       (relayed.has_heartbeat ? 1U : 0U));
+  note_participant(relayed.participant);
+  note(static_cast<std::uint64_t>(relayed.stream));
+  note(relayed.descriptor);
+  for (const std::int64_t number : {relayed.number, relayed.first, relayed.last, relayed.base}) {
+    note(static_cast<std::uint64_t>(number));
+  }
+  for (const std::int64_t number : relayed.numbers) note(static_cast<std::uint64_t>(number));
 }
 
 void RunLog::note_submessage(const model::Submessage& submessage) {

@@ -63,6 +63,8 @@ class RunLog final : public model::Probe {
   void note_pair(std::uint32_t pair);
   void note_subject(model::trace::Subject subject, std::uint32_t number);
   void note_packet(const model::Packet& packet);
+  void note_numbers(const model::Packet& packet);
+  void note_relayed(const model::Relayed& relayed);
   void note_submessage(const model::Submessage& submessage);
 
   Reading reading_;

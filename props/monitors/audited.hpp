@@ -55,7 +55,7 @@ struct AuditColumns : model::PlainColumns {
   template <comp::Owner owner>
   static std::uint32_t rows(const model::RunState& run) {
     if constexpr (owner == comp::owner::control_relation) {
-      return model::fastdds::ControlRelations{run}.count();
+      return model::fastdds::ControlRelations{run.topology, run.scenario}.count();
     } else if constexpr (owner == comp::owner::control_writer) {
       return model::fastdds::control_writers * run.topology.participant_count();
     } else {

@@ -204,6 +204,11 @@ void add_exchange(std::vector<Mistake>& list) {
                   of_rules(of_event(EventKind::control_reply_due, Change::shift, ns))});
   list.push_back({"law.control", "attempts of control-only relations are forgotten",
                   of_rules(of_event(EventKind::control_initial_due, Change::forget))});
+  list.push_back({"law.lookups", "participants know one type more", of_other([](Scenario& s) {
+                    if (s.deployment.types) --s.deployment.types->unknown_per_participant;
+                  })});
+  list.push_back({"law.samples", "what is asked and answered is never announced",
+                  of_rules(of_event(EventKind::lookup_expiry, Change::forget))});
 }
 
 void add_accounting(std::vector<Mistake>& list) {
