@@ -14,6 +14,10 @@ namespace {
 using report::Column;
 using report::Paragraph;
 
+std::string share_text(std::size_t part, std::size_t whole) {
+  return report::percent(static_cast<double>(part), static_cast<double>(whole));
+}
+
 /// What the property tests say about a mutant, after what the properties say; nothing if they were
 /// not asked.
 std::string laws_text(const MutantResult& mutant, bool everybody) {
@@ -90,18 +94,33 @@ std::string_view harm_in_words(const MutantResult& mutant) {
   return "";
 }
 
+/// If the rules themselves are wrong, who notices is somebody who does not execute them.
+report::Table shares_table(const MutationReport& report) {
+  report::Table table;
+  table.columns = {{"rules of"},
+                   {"mistakes that runs show", Column::Align::right},
+                   {"noticed if the rules are wrong", Column::Align::right},
+                   {"share", Column::Align::right},
+                   {"expected", Column::Align::right}};
+  for (const Share& share : report.shares()) {
+    table.rows.push_back({{report::code(share.composition), report::grouped(share.seen),
+                           report::grouped(share.noticed), share_text(share.noticed, share.seen),
+                           share.is_expected ? "60 %" : "–"},
+                          !share.suffices()});
+  }
+  return table;
+}
+
 /// The ends of long lists are what one sees of them.
 void add_survivors(report::Document& document, const MutationReport& report) {
   report::Bullets survivors;
   report::Bullets restated;
   for (const MutantResult& mutant : report.mutants) {
     if (mutant.noticed_in_rules() || mutant.unseen()) continue;
-    if (mutant.noticed()) {
-      restated.items.push_back(report::code(mutant.id) + ": changes " +
-                               std::string{harm_in_words(mutant)});
-    } else {
-      survivors.items.push_back(report::code(mutant.id) + ": " + mutant.reason);
-    }
+    report::Text item = report::code(mutant.id);
+    if (mutant.harm) item += fmt::format(": changes {}", harm_in_words(mutant));
+    if (!mutant.noticed()) item += ": " + mutant.reason;
+    (mutant.noticed() ? restated : survivors).items.emplace_back(std::move(item));
   }
   if (!restated.items.empty()) {
     document.blocks.emplace_back(
@@ -117,9 +136,6 @@ void add_survivors(report::Document& document, const MutationReport& report) {
 }  // namespace
 
 report::Document document_of(const MutationReport& report) {
-  const auto share = [](std::size_t part, std::size_t whole) {
-    return report::percent(static_cast<double>(part), static_cast<double>(whole));
-  };
   const std::size_t total = report.mutants.size();
   report::Document document;
   document.title = "stormproof mutate";
@@ -128,7 +144,7 @@ report::Document document_of(const MutationReport& report) {
                                             : report::Tone::bad;
   const std::size_t seen = total - report.unseen();
   document.answer = fmt::format("{} of {} mutants are noticed ({}), in {:.1f} s", report.killed(),
-                                seen, share(report.killed(), seen), report.seconds);
+                                seen, share_text(report.killed(), seen), report.seconds);
   if (report.unseen() > 0) {
     document.answer +=
         fmt::format("; {} more are unseen in {} random runs, which proves nothing of them",
@@ -138,14 +154,14 @@ report::Document document_of(const MutationReport& report) {
     document.answer += fmt::format(
         "; of {} at effects {} ({}) if the rules themselves are wrong, and {} only because "
         "composition.followed executes correct rules beside the run",
-        effects, report.noticed_in_rules(), share(report.noticed_in_rules(), effects),
+        effects, report.noticed_in_rules(), share_text(report.noticed_in_rules(), effects),
         report.only_followed());
   }
   document.elaboration =
       report.everybody
           ? fmt::format("killed by property tests: {} of the {} that a run can show ({})",
                         report.killed_by_laws(), report.tried_on_laws(),
-                        share(report.killed_by_laws(), report.tried_on_laws()))
+                        share_text(report.killed_by_laws(), report.tried_on_laws()))
           : "runs are asked first, then proofs and searches, until somebody notices; "
             "--everybody asks all properties and laws";
   if (report.interrupted) {
@@ -153,6 +169,10 @@ report::Document document_of(const MutationReport& report) {
         Paragraph{"Interrupted: the other mutants were not tried.", report::Tone::warn});
   }
   document.blocks.emplace_back(mutants_table(report));
+  if (report.seen_at_effects() > 0) {
+    document.blocks.emplace_back(
+        report::Section{"If the rules themselves are wrong", "shares", {shares_table(report)}});
+  }
   const auto of_property = [&](auto id) { return report.killed_by(id); };
   const auto of_law = [&](auto id) { return report.killed_by_law(id); };
   document.blocks.emplace_back(

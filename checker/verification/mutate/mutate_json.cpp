@@ -18,6 +18,14 @@ void describe(V& v, const MutantResult& mutant) {
   v("harm", mutant.harm);
 }
 
+template <class V>
+void describe(V& v, const Share& share) {
+  v("composition", share.composition);
+  v("seen", share.seen);
+  v("noticed_in_rules", share.noticed);
+  v("suffices", share.suffices());
+}
+
 namespace {
 
 struct ByProperty {
@@ -51,6 +59,7 @@ void describe(V& v, const MutationReport& report) {
   v("only_followed", report.only_followed());
   v("seen_at_effects", report.seen_at_effects());
   v("noticed_in_rules", report.noticed_in_rules());
+  v("shares", report.shares());
   v("killed_by_property", ByProperty{report});
   v("killed_by_any_law", report.killed_by_laws());
   v("tried_on_laws", report.tried_on_laws());

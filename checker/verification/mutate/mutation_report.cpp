@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "checker/verification/mutate/mutate.hpp"
+#include "model/composition_of.hpp"
+#include "model/implementations.hpp"
 
 namespace stormproof::mutate {
 
@@ -23,16 +25,40 @@ std::size_t MutationReport::unseen() const {
   return static_cast<std::size_t>(std::ranges::count_if(mutants, &MutantResult::unseen));
 }
 
+bool Share::suffices() const {
+  constexpr std::size_t required_percent = 60;
+  return !is_expected || 100 * noticed >= required_percent * seen;
+}
+
+std::vector<Share> MutationReport::shares() const {
+  std::vector<Share> list;
+  for (const MutantResult& mutant : mutants) {
+    if (mutant.kind != Kind::effect || mutant.unseen()) continue;
+    const std::string composition = mutant.id.substr(0, mutant.id.find(':'));
+    auto share = std::ranges::find(list, composition, &Share::composition);
+    if (share == list.end()) {
+      const auto has_it = [&](model::ImplementationKind kind) {
+        return model::composition_of(kind).name == composition;
+      };
+      const bool is_known = std::ranges::any_of(model::known_to_engines(), has_it);
+      share = list.insert(list.end(), {composition, 0, 0, is_known});
+    }
+    ++share->seen;
+    share->noticed += mutant.noticed_in_rules() ? 1U : 0U;
+  }
+  return list;
+}
+
 std::size_t MutationReport::seen_at_effects() const {
-  return static_cast<std::size_t>(std::ranges::count_if(mutants, [](const MutantResult& mutant) {
-    return mutant.kind == Kind::effect && !mutant.unseen();
-  }));
+  std::size_t seen = 0;
+  for (const Share& share : shares()) seen += share.seen;
+  return seen;
 }
 
 std::size_t MutationReport::noticed_in_rules() const {
-  return static_cast<std::size_t>(std::ranges::count_if(mutants, [](const MutantResult& mutant) {
-    return mutant.kind == Kind::effect && mutant.noticed_in_rules();
-  }));
+  std::size_t noticed = 0;
+  for (const Share& share : shares()) noticed += share.noticed;
+  return noticed;
 }
 
 std::size_t MutationReport::only_followed() const {
@@ -43,9 +69,8 @@ std::size_t MutationReport::only_followed() const {
 
 bool MutationReport::notices_enough() const {
   constexpr std::size_t required_percent = 95;
-  constexpr std::size_t required_in_rules = 60;
   return 100 * killed() >= required_percent * (mutants.size() - unseen()) &&
-         100 * noticed_in_rules() >= required_in_rules * seen_at_effects();
+         std::ranges::all_of(shares(), &Share::suffices);
 }
 
 std::size_t MutationReport::killed_by(std::string_view property) const {

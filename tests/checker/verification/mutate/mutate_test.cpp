@@ -166,9 +166,9 @@ TEST(MutateReport, WhatNoRunShowsIsUnseen) {
 /// are counted apart, and what they change is said of each.
 TEST(MutateReport, WhatOnlyCorrectRulesNoticeIsCountedApart) {
   MutationReport report;
-  for (int k = 0; k < 5; ++k) report.mutants.push_back(of_effect("a", {"live.no-stall"}));
+  for (int k = 0; k < 5; ++k) report.mutants.push_back(of_effect("paper:a", {"live.no-stall"}));
   for (int k = 0; k < 3; ++k) {
-    report.mutants.push_back(of_effect("b", {"composition.followed"}, Harm::messages));
+    report.mutants.push_back(of_effect("paper:b", {"composition.followed"}, Harm::messages));
   }
   EXPECT_EQ(report.killed(), 8U);
   EXPECT_EQ(report.only_followed(), 3U);
@@ -178,11 +178,15 @@ TEST(MutateReport, WhatOnlyCorrectRulesNoticeIsCountedApart) {
   const std::string text = to_text(document_of(report));
   EXPECT_NE(text.find("of 8 at effects 5 (62.5 %) if the rules themselves"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("b: changes how many messages there are"), std::string::npos) << text;
-  report.mutants.push_back(of_effect("c", {"composition.followed"}, Harm::time));
+  EXPECT_NE(text.find("paper:b: changes how many messages there are"), std::string::npos) << text;
+  report.mutants.push_back(of_effect("paper:c", {"composition.followed"}, Harm::time));
   EXPECT_FALSE(report.notices_enough());  // 5 of 9 are fewer than 60 %
+  report.mutants.push_back(of_effect("cyclone:c", {"composition.followed"}, Harm::time));
+  EXPECT_EQ(report.shares().size(), 2U);
+  EXPECT_FALSE(report.shares()[0].suffices());
+  EXPECT_TRUE(report.shares()[1].suffices());  // laws and engines do not know its writer
   report.mutants.push_back({"d", Kind::event, "late", {"composition.followed"}, "", {}});
-  EXPECT_EQ(report.seen_at_effects(), 9U);
+  EXPECT_EQ(report.seen_at_effects(), 10U);
 }
 
 /// Several hundred, one for each mistake that the rules allow. Those that nobody notices change
