@@ -55,7 +55,7 @@ const Report& usual_study() {
 }
 
 std::string json_of(const Report& report, const Subject& subject, const Options& options) {
-  return to_json(report, {"small", subject, options, {}, {}, {}, {}}).dump();
+  return to_json(report, {.scenario = "small", .subject = subject, .options = options}).dump();
 }
 
 TEST(TuneStudy, FindsLessOfAStorm) {
@@ -73,11 +73,12 @@ TEST(TuneStudy, FindsLessOfAStorm) {
   ASSERT_NE(row_named(report, "adaptive HEARTBEATs"), nullptr);
   EXPECT_FALSE(row_named(report, "adaptive HEARTBEATs")->note.empty());
 
-  const std::string text =
-      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
+  const std::string text = report::to_text(
+      document_of(report, {.scenario = "small", .subject = subject, .options = options}));
   EXPECT_TRUE(text.find("BETTER") != std::string::npos);
   EXPECT_TRUE(text.find("unchanged") != std::string::npos);
-  const std::string svg = to_svg(report, {"small", subject, options, {}, {}, {}, {}});
+  const std::string svg =
+      to_svg(report, {.scenario = "small", .subject = subject, .options = options});
   EXPECT_TRUE(svg.find("recommended") != std::string::npos);
   // In the legend, and beside its point, which may lie on another.
   const std::size_t named = svg.find(">adaptive HEARTBEATs<");
@@ -140,8 +141,8 @@ TEST(TuneStudy, SaysThatNothingIsBetter) {
   const Report report = study(subject, options);
   EXPECT_EQ(report.answer, Answer::nothing_better);
   EXPECT_EQ(report.recommended, std::optional<std::size_t>{0});
-  const std::string text =
-      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
+  const std::string text = report::to_text(
+      document_of(report, {.scenario = "small", .subject = subject, .options = options}));
   EXPECT_TRUE(text.find("NOTHING BETTER") != std::string::npos);
 }
 
@@ -177,8 +178,8 @@ TEST(TuneStudy, OneTrajectoryIsOneRun) {
   const Report report = study(*subject, options);
   EXPECT_FALSE(report.is_sampled);
   EXPECT_EQ(report.basis.count, 1U);
-  const std::string text =
-      report::to_text(document_of(report, {"small", *subject, options, {}, {}, {}, {}}));
+  const std::string text = report::to_text(
+      document_of(report, {.scenario = "small", .subject = *subject, .options = options}));
   EXPECT_TRUE(text.find("one trajectory") != std::string::npos);
 }
 
@@ -189,8 +190,8 @@ TEST(TuneStudy, InterruptedItTellsTheBestKnown) {
   const Report report = study(subject, options);
   EXPECT_EQ(report.answer, Answer::interrupted);
   ASSERT_FALSE(report.rows.empty());
-  const std::string text =
-      report::to_text(document_of(report, {"small", subject, options, {}, {}, {}, {}}));
+  const std::string text = report::to_text(
+      document_of(report, {.scenario = "small", .subject = subject, .options = options}));
   EXPECT_TRUE(text.find("INTERRUPTED") != std::string::npos);
   options.on_progress = [](std::string_view, std::size_t, std::size_t) { return false; };
   EXPECT_EQ(study(subject, options).answer, Answer::interrupted);
