@@ -129,7 +129,7 @@ void draw_version(Dice& dice, DdsProfile& dds) {
   version.type_lookup = dice.chance(70) ? Whether::yes : Whether::no;
   version.sizes = dice.choice<SizesSince>(3);
   version.descriptor_extra_bytes = Bytes{dice.among({0, 92, 188, dice.between(1, 2'000)})};
-  version.statistics_bytes = Bytes{dice.among({0, 60, 60, 1'000})};
+  version.statistics_bytes = Bytes{dice.among({0, 60, 28, 1'000})};
   version.max_data_per_message = dice.pick<std::uint32_t>({0, 31, 1, 2, dice.count(1, 12)});
   if (dice.chance(60)) dds.sedp.piggyback = Piggyback::group;
 }

@@ -6,8 +6,8 @@
 // cross-host relations of the two streams are looked at, each after the events that concern it.
 //
 // HEARTBEATs that go on may bring nothing. Where the scenario says of each packet how long it
-// takes, whatever is missing has to come once all lost and late packets are over and every timer
-// has been due several times.
+// takes, and no thread is busy (hosts), whatever is missing has to come once all lost and late
+// packets are over and every timer has been due several times.
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -36,7 +36,7 @@ class CycloneStalls : public Observer {
  public:
   explicit CycloneStalls(const model::Scenario& scenario)
       : Observer{"live.no-stall"}, wireless_{scenario.wireless} {
-    if (wireless_.kind == model::ServiceKind::constant_delay) {
+    if (wireless_.kind == model::ServiceKind::constant_delay && !scenario.hosts) {
       patience_ = patience_with_cyclone(scenario);
     }
   }

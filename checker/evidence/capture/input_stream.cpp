@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace stormproof::capture {
@@ -49,6 +50,20 @@ std::string refusal(const std::string& path) {
   return "not a regular file or a pipe; expected a capture (pcap or pcapng)";
 }
 
+/// Opens what is no standard input. A pipe is not waited for: without somebody who writes into it,
+/// who may never come, its first byte is the end.
+std::string open_file(const std::string& path, InputStream& stream) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  stream.file.reset(descriptor < 0 ? nullptr : fdopen(descriptor, "rb"));
+  if (!stream.file) return std::strerror(errno);
+  if (std::filesystem::is_fifo(path)) {
+    const ssize_t count = ::read(descriptor, stream.start.data(), 1);
+    if (count == 0) return "a pipe into which nobody writes; expected a capture (pcap or pcapng)";
+    stream.start_length = count > 0 ? 1 : 0;
+  }
+  return fcntl(descriptor, F_SETFL, O_RDONLY) == 0 ? "" : std::strerror(errno);
+}
+
 }  // namespace
 
 Result<InputStream> open_stream(const std::string& path) {
@@ -62,9 +77,13 @@ Result<InputStream> open_stream(const std::string& path) {
     return InputError{path, why};
   }
   InputStream stream;
-  stream.file.reset(is_standard ? stdin : std::fopen(path.c_str(), "rb"));
-  if (!stream.file) return InputError{path, std::strerror(errno)};
-  stream.start_length = std::fread(stream.start.data(), 1, stream.start.size(), stream.file.get());
+  if (is_standard) {
+    stream.file.reset(stdin);
+  } else if (const std::string why = open_file(path, stream); !why.empty()) {
+    return InputError{path, why};
+  }
+  stream.start_length += std::fread(stream.start.data() + stream.start_length, 1,
+                                    stream.start.size() - stream.start_length, stream.file.get());
   if (std::fseek(stream.file.get(), 0, SEEK_SET) == 0) return stream;
   InputStream whole;
   whole.start = stream.start;

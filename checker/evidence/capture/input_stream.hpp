@@ -30,7 +30,8 @@ struct InputStream {
   [[nodiscard]] Bytes first_bytes() const { return {start.data(), start_length}; }
 };
 
-/// An error if there is no such file, or it is a directory, a terminal or another device.
+/// An error if there is no such file, or it is a directory, a terminal or another device, or a pipe
+/// into which nobody writes.
 [[nodiscard]] model::config::Result<InputStream> open_stream(const std::string& path);
 
 }  // namespace stormproof::capture

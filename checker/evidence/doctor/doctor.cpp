@@ -134,6 +134,13 @@ void judge(Report& report, const model::WirelessProfile* channel) {
     report.took = expense_of(report.conversation, report.counting, report.failure_free,
                              is_incomplete, channel);
     report.storm = exact::is_storm(report.took, std::nullopt);
+    const std::int64_t last_in_time =
+        last_start_ns(report.conversation) + exact::late_limit(std::nullopt).count();
+    if (report.took.is_late &&
+        report.counting.last_initial_ns.value_or(INT64_MAX) <= last_in_time) {
+      report.known_late_ns =
+          discovered_ns(report.conversation, report.counting) - report.conversation.first_ns;
+    }
     report.amplified = exact::is_amplified(
         static_cast<double>(report.messages() + report.counting.lookup_messages()) /
         static_cast<double>(std::max<std::uint64_t>(report.failure_free.total(), 1)));

@@ -109,6 +109,8 @@ struct Report {
   std::size_t there_before = 0;  ///< participants that had begun when the capture did
   bool has_server = false;       ///< participants discover through a Discovery Server
   std::optional<std::int64_t> completion_ns{};  ///< since the first announcement
+  /// When everybody had everything, since then, if that is late although all was told in time.
+  std::optional<std::int64_t> known_late_ns{};
   std::vector<Cause> causes{};
   std::vector<Heard> heard{};  ///< only of several captures
   std::optional<Basis> basis{};

@@ -41,8 +41,13 @@ std::string completeness(const Report& report) {
                        grouped(report.missing), grouped(report.counting.required));
   }
   if (!report.completion_ns) return "every descriptor was known";
-  return "everybody was told everything after " +
-         report::duration(model::Nanoseconds{*report.completion_ns});
+  std::string text = "everybody was told everything after " +
+                     report::duration(model::Nanoseconds{*report.completion_ns});
+  if (report.storm && report.known_late_ns) {
+    text += fmt::format(", and had it after {}",
+                        report::duration(model::Nanoseconds{*report.known_late_ns}));
+  }
+  return text;
 }
 
 /// "4,582 messages about types that participants do not know, beside "; empty if there are fewer

@@ -141,17 +141,21 @@ std::int64_t discovered_ns(const Conversation& conversation, const Counting& cou
                    counting.last_lookup_ns.value_or(INT64_MIN)});
 }
 
+std::int64_t last_start_ns(const Conversation& conversation) {
+  std::int64_t last = conversation.first_ns;
+  for (const capture::Participant& one : conversation.topology.participants) {
+    last = std::max(last, one.first_ns);
+  }
+  return last;
+}
+
 exact::Expense expense_of(const Conversation& conversation, const Counting& counting,
                           const model::Counts& failure_free, bool incomplete,
                           const model::WirelessProfile* channel) {
-  std::int64_t last_start_ns = conversation.first_ns;
-  for (const capture::Participant& one : conversation.topology.participants) {
-    last_start_ns = std::max(last_start_ns, one.first_ns);
-  }
   const std::int64_t known_ns = discovered_ns(conversation, counting);
   const std::int64_t end_ns = incomplete ? conversation.last_ns : known_ns;
-  const bool is_late =
-      incomplete || known_ns > last_start_ns + exact::late_limit(std::nullopt).count();
+  const bool is_late = incomplete || known_ns > last_start_ns(conversation) +
+                                                    exact::late_limit(std::nullopt).count();
   const Tally tally{conversation, counting, end_ns, channel};
   const PerKind& unit = channel != nullptr ? tally.airtime : tally.messages;
   const auto of = [&](Kind kind) { return unit[static_cast<std::size_t>(kind)]; };

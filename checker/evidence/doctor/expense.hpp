@@ -14,6 +14,9 @@
 
 namespace stormproof::doctor {
 
+/// When the last participant announced itself first.
+[[nodiscard]] std::int64_t last_start_ns(const capture::Conversation& conversation);
+
 /// When everybody had everything, as far as the capture shows it: of each relation the first
 /// ACKNACK that acknowledges all that was sent to it, or, where there is none, the last DATA. At
 /// least when the last descriptor was sent first, and the last type was asked for or told.

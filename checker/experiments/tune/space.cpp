@@ -27,7 +27,8 @@ double lowest(std::int64_t minimum) { return std::max(1.0, static_cast<double>(m
 constexpr std::string_view off = "false";
 constexpr std::string_view on = "true";
 
-bool is_switch(const OtherChoices& choice) { return choice.value == off || choice.value == on; }
+/// It can be switched off. What is off in a preset the library's version does not have.
+bool is_switched_on(const OtherChoices& choice) { return choice.value == on; }
 
 /// The profile with the switch `key` turned, if there is one.
 model::DdsProfile turned(const model::DdsProfile& dds, const std::string& key) {
@@ -37,7 +38,7 @@ model::DdsProfile turned(const model::DdsProfile& dds, const std::string& key) {
 }
 
 /// What is searched of a knob that the vendor's library has; nothing if it is a word that is no
-/// switch.
+/// switch, or a switch that is off.
 std::optional<Dimension> dimension_of(const std::string& key, const VendorKnob& knob,
                                       std::span<const NumericKnob> numbers,
                                       std::span<const OtherChoices> choices) {
@@ -54,10 +55,10 @@ std::optional<Dimension> dimension_of(const std::string& key, const VendorKnob& 
     return dimension;
   }
   const auto choice = std::ranges::find(choices, key, &OtherChoices::key);
-  if (choice == choices.end() || !is_switch(*choice)) return std::nullopt;
+  if (choice == choices.end() || !is_switched_on(*choice)) return std::nullopt;
   dimension.unit = NumericKnob::Unit::things;
   dimension.maximum = 1;
-  dimension.unchanged = choice->value == on ? 1 : 0;
+  dimension.unchanged = 1;
   dimension.is_switch = true;
   return dimension;
 }

@@ -194,11 +194,13 @@ Buffer varied_capture() {
   for (const ByteOrder order : {ByteOrder::little, ByteOrder::big}) {
     const Message message = varied(order);
     file.message(0, route, message);
+    ++route.id;  // with the same one it would be the same packet
     const Buffer tags = Writer{}.u16(1).u16(0x8100).u16(2).u16(0x8100).u16(3).u16(0x0800).buffer();
     Buffer tagged = tags;
     const Buffer ip = ipv4(route, message.buffer());
     tagged.insert(tagged.end(), ip.begin(), ip.end());
     file.frame(1, ethernet(tagged, 0x88a8));
+    ++route.id;
     const Buffer datagram = udp(route, message.buffer());
     const std::size_t rest = datagram.size() - 640;
     file.frame(2, ethernet(ipv4_fragment(route, datagram, 320, 320, true)));

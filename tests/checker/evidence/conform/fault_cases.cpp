@@ -93,7 +93,13 @@ std::vector<Case> announcement_cases() {
              });
              return find(c, multicast_of(c, 1), 3);
            },
-           "lateness"}};
+           "lateness"},
+          {Fault::other_version, "announcement_of_another_version",
+           [](Conversation& c) {
+             c.topology.participants[1].version = "3.6.2";
+             return find(c, multicast_of(c, 1));
+           },
+           "sizes: v3.6"}};
 }
 
 std::vector<Case> heartbeat_cases() {

@@ -82,6 +82,11 @@ TEST(TuneSpace, SearchesSwitches) {
   only_that.dds.version.type_lookup = model::Whether::yes;
   EXPECT_EQ(only_that, subject->scenario);
   EXPECT_FALSE(space.find("dds.discovery")) << "a word among many";
+  const auto earlier = subject_of({"dds=fastdds-2.6.11"});
+  ASSERT_TRUE(earlier);
+  EXPECT_FALSE(
+      space_of(earlier->scenario, vendor::vendor_knobs(earlier->vendor)).find("dds.type_lookup"))
+      << "2.6 has no such property";
 }
 
 TEST(TuneSpace, AppliesAndTellsChanges) {
