@@ -2,7 +2,6 @@
 #include "checker/engines/exact/health.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 
 #include <fmt/core.h>
@@ -24,15 +23,8 @@ bool has_failures(const model::Deployment& deployment) {
   return life && !(life->mute.empty() && life->outages.empty() && life->restarts.empty());
 }
 
-/// What the classes of the run took: airtime of all channels, or messages where there is none.
-std::array<double, model::traffic_class_count> used(const model::RunResult& result) {
-  std::array<double, model::traffic_class_count> sum{};
-  for (const model::ChannelUse& channel : result.channels) {
-    for (std::size_t k = 0; k < sum.size(); ++k) {
-      sum[k] += static_cast<double>(channel.busy[k].count());
-    }
-  }
-  if (!result.channels.empty()) return sum;
+PerClass messages_of(const model::RunResult& result) {
+  PerClass sum{};
   const auto put = [&](TrafficClass one, std::uint64_t messages) {
     sum[static_cast<std::size_t>(one)] = static_cast<double>(messages);
   };
@@ -45,28 +37,21 @@ std::array<double, model::traffic_class_count> used(const model::RunResult& resu
   put(TrafficClass::lookup, result.counts.lookup);
   return sum;
 }
-
-Sent sent_in(const model::Scenario& scenario, const model::RunResult& result) {
-  const auto sums = used(result);
-  const auto of = [&](TrafficClass one) { return sums[static_cast<std::size_t>(one)]; };
-  const model::Counts& counts = result.counts;
-  const model::Counts needed = model::failure_free_reference(scenario);
-  const auto part = [](std::uint64_t once, std::uint64_t messages) {
-    return part_of(static_cast<double>(once), static_cast<double>(messages));
-  };
-  Sent sent;
-  sent.initial_data = of(TrafficClass::initial_data);
-  sent.repair_data = of(TrafficClass::repair_data);
-  if (result.repairs_received > 0) {
-    sent.needed_repairs = part(result.useful_repairs, result.repairs_received);
+/// Of all channels.
+PerClass airtime_of(const model::RunResult& result) {
+  PerClass sum{};
+  for (const model::ChannelUse& channel : result.channels) {
+    for (std::size_t k = 0; k < sum.size(); ++k) {
+      sum[k] += static_cast<double>(channel.busy[k].count());
+    }
   }
-  sent.heartbeats = {of(TrafficClass::heartbeat), part(needed.heartbeat, counts.heartbeat)};
-  sent.acknacks = {of(TrafficClass::acknack), part(needed.acknack, counts.acknack)};
-  sent.announcements = {of(TrafficClass::spdp), part(needed.spdp() + needed.of_server(),
-                                                     counts.spdp() + counts.of_server())};
-  sent.lookups = of(TrafficClass::lookup);
-  sent.user_control = of(TrafficClass::user_control);
-  return sent;
+  return sum;
+}
+
+double needed_repairs(const model::RunResult& result) {
+  if (result.repairs_received == 0) return 1;
+  return part_of(static_cast<double>(result.useful_repairs),
+                 static_cast<double>(result.repairs_received));
 }
 
 double busiest(const model::RunResult& result) {
@@ -152,12 +137,15 @@ RunHealth health_of(const model::Scenario& scenario, const model::RunResult& res
   if (const auto once = model::open_loop_airtime(scenario); once && once->count() > 0) {
     run.stretch = static_cast<double>(run.took.count()) / static_cast<double>(once->count());
   }
-  const Expense took = expense_of(sent_in(scenario, result),
-                                  !run.completion || run.took > late_limit(scenario.limits));
+  const PerClass airtime = airtime_of(result);
+  const PerClass messages = messages_of(result);
+  const bool has_airtime = !result.channels.empty();
+  const Sent sent = sent_of(has_airtime ? airtime : messages, messages,
+                            model::failure_free_reference(scenario), needed_repairs(result));
+  const Expense took = expense_of(sent, !run.completion || run.took > late_limit(scenario.limits));
   run.needless = took.ratio();
-  if (!result.channels.empty() && took.once > 0) {
-    const auto sums = used(result);
-    run.airtime = std::accumulate(sums.begin(), sums.end(), 0.0) / took.once;
+  if (has_airtime && took.once > 0) {
+    run.airtime = std::accumulate(airtime.begin(), airtime.end(), 0.0) / took.once;
   }
   run.health = judged(run, took, scenario.limits);
   return run;

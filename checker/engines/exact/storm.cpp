@@ -20,6 +20,26 @@ model::Nanoseconds late_limit(const std::optional<model::Limits>& limits) {
 
 double part_of(double needed, double sent) { return sent > 0 ? std::min(1.0, needed / sent) : 1; }
 
+Sent sent_of(const PerClass& amount, const PerClass& messages, const model::Counts& failure_free,
+             double needed_repairs) {
+  using model::TrafficClass;
+  const auto of = [&](TrafficClass one) { return amount[static_cast<std::size_t>(one)]; };
+  const auto part = [&](TrafficClass one, std::uint64_t needed) {
+    return Traffic{of(one),
+                   part_of(static_cast<double>(needed), messages[static_cast<std::size_t>(one)])};
+  };
+  Sent sent;
+  sent.initial_data = of(TrafficClass::initial_data);
+  sent.repair_data = of(TrafficClass::repair_data);
+  sent.needed_repairs = needed_repairs;
+  sent.heartbeats = part(TrafficClass::heartbeat, failure_free.heartbeat);
+  sent.acknacks = part(TrafficClass::acknack, failure_free.acknack);
+  sent.announcements = part(TrafficClass::spdp, failure_free.spdp() + failure_free.of_server());
+  sent.lookups = of(TrafficClass::lookup);
+  sent.user_control = of(TrafficClass::user_control);
+  return sent;
+}
+
 Expense expense_of(const Sent& sent, bool is_late) {
   const auto once = [](const Traffic& traffic) { return traffic.sent * traffic.once; };
   const auto beyond = [](const Traffic& traffic) { return traffic.sent * (1 - traffic.once); };

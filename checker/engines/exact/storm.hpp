@@ -15,10 +15,13 @@
 // failures on it is amplified: nobody has to act, and settings would help.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 
+#include "model/counts.hpp"
 #include "model/limits.hpp"
+#include "model/run_result.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::exact {
@@ -49,6 +52,13 @@ struct Sent {
   double lookups = 0;       ///< of types, and their control
   double user_control = 0;  ///< of control-only relations
 };
+
+/// By class of traffic: airtime, or messages.
+using PerClass = std::array<double, model::traffic_class_count>;
+/// What `amount` says, in the unit of which it is, of the same traffic in `messages`, if a
+/// discovery without failures takes `failure_free`.
+[[nodiscard]] Sent sent_of(const PerClass& amount, const PerClass& messages,
+                           const model::Counts& failure_free, double needed_repairs);
 
 /// What a discovery took.
 struct Expense {

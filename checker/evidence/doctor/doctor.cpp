@@ -131,15 +131,13 @@ void judge(Report& report, const model::WirelessProfile* channel) {
   const bool began_late = report.there_before > 0 && report.missing + report.known_before > 0;
   const bool is_incomplete = report.missing > 0 && !began_late;
   if (has_keys) {
-    report.took = expense_of(report.conversation, report.counting, report.failure_free,
+    const Discovered when = discovered(report.conversation, report.counting);
+    report.took = expense_of(report.conversation, report.counting, report.failure_free, when,
                              is_incomplete, channel);
     report.storm = exact::is_storm(report.took, std::nullopt);
-    const std::int64_t last_in_time =
-        last_start_ns(report.conversation) + exact::late_limit(std::nullopt).count();
-    if (report.took.is_late &&
-        report.counting.last_initial_ns.value_or(INT64_MAX) <= last_in_time) {
-      report.known_late_ns =
-          discovered_ns(report.conversation, report.counting) - report.conversation.first_ns;
+    const auto& last_told_ns = report.counting.last_initial_ns;
+    if (when.is_late(when.known_ns) && last_told_ns && !when.is_late(*last_told_ns)) {
+      report.known_late_ns = when.known_ns - report.conversation.first_ns;
     }
     report.amplified = exact::is_amplified(
         static_cast<double>(report.messages() + report.counting.lookup_messages()) /

@@ -18,48 +18,44 @@ using capture::Counting;
 using capture::Event;
 using capture::GuidPrefix;
 using model::MessageClass;
+using model::TrafficClass;
 
-/// Kinds of traffic, that which a datagram is sent for first.
-enum class Kind : std::uint8_t {
-  initial_data,
-  announcement,
-  repair_data,
-  heartbeat,
-  acknack,
-  lookup,
-  user_control,
-  other
-};
-constexpr std::size_t kinds = 8;
-using PerKind = std::array<double, kinds>;
-
-Kind kind_of(const Event& event, const std::optional<MessageClass>& is) {
+/// Nothing: it is not of discovery, or of the same host.
+std::optional<TrafficClass> traffic_class(const Event& event,
+                                          const std::optional<MessageClass>& is) {
   if (is) {
     switch (*is) {
       case MessageClass::initial_data:
-        return Kind::initial_data;
+        return TrafficClass::initial_data;
       case MessageClass::repair_data:
-        return Kind::repair_data;
+        return TrafficClass::repair_data;
       case MessageClass::heartbeat:
-        return Kind::heartbeat;
+        return TrafficClass::heartbeat;
       case MessageClass::acknack:
-        return Kind::acknack;
+        return TrafficClass::acknack;
       case MessageClass::spdp_multicast:
       case MessageClass::spdp_unicast:
-        return Kind::announcement;
+        return TrafficClass::spdp;
     }
   }
-  if (event.is_same_host) return Kind::other;
-  if (event.traffic() == capture::Traffic::spdp) return Kind::announcement;
-  if (event.traffic() == capture::Traffic::type_lookup) return Kind::lookup;
+  if (event.is_same_host) return std::nullopt;
+  if (event.traffic() == capture::Traffic::spdp) return TrafficClass::spdp;
+  if (event.traffic() == capture::Traffic::type_lookup) return TrafficClass::lookup;
   const bool is_control = event.heartbeat() != nullptr || event.acknack() != nullptr;
-  return event.traffic() == capture::Traffic::user && is_control ? Kind::user_control : Kind::other;
+  if (event.traffic() != capture::Traffic::user || !is_control) return std::nullopt;
+  return TrafficClass::user_control;
 }
 
-/// Messages until `end_ns` by kind; and, if there is a channel, what their datagrams take.
+/// What a datagram is sent for that holds several of them is the first one.
+constexpr std::array order{TrafficClass::initial_data, TrafficClass::spdp,
+                           TrafficClass::repair_data,  TrafficClass::heartbeat,
+                           TrafficClass::acknack,      TrafficClass::lookup,
+                           TrafficClass::user_control};
+
+/// Messages until `end_ns`; and, if there is a channel, what their datagrams take.
 struct Tally {
-  PerKind messages{};
-  PerKind airtime{};
+  exact::PerClass messages{};
+  exact::PerClass airtime{};
 
   Tally(const Conversation& conversation, const Counting& counting, std::int64_t end_ns,
         const model::WirelessProfile* channel) {
@@ -69,14 +65,15 @@ struct Tally {
       const std::uint32_t number = conversation.events[k].datagram;
       const capture::DatagramRecord& datagram = conversation.datagrams[number];
       if (datagram.time_ns > end_ns) break;
-      Kind first = Kind::other;
+      auto first = order.end();
       for (; k < counting.classes.size() && conversation.events[k].datagram == number; ++k) {
-        const Kind kind = kind_of(conversation.events[k], counting.classes[k]);
-        ++messages[static_cast<std::size_t>(kind)];
-        first = std::min(first, kind);
+        const auto one = traffic_class(conversation.events[k], counting.classes[k]);
+        if (!one) continue;
+        ++messages[static_cast<std::size_t>(*one)];
+        first = std::min(first, std::ranges::find(order, *one));
       }
-      if (!route) continue;
-      airtime[static_cast<std::size_t>(first)] += static_cast<double>(
+      if (!route || first == order.end()) continue;
+      airtime[static_cast<std::size_t>(*first)] += static_cast<double>(
           route->packet_ns(datagram.payload_bytes, datagram.destination.address.is_multicast()));
     }
   }
@@ -120,9 +117,10 @@ class Acknowledgements {
   std::map<ReaderOf, std::int64_t> known_;
 };
 
-}  // namespace
-
-std::int64_t discovered_ns(const Conversation& conversation, const Counting& counting) {
+/// When everybody had everything, as far as the capture shows it: of each relation the first
+/// ACKNACK that acknowledges all that was sent to it, or, where there is none, the last DATA. At
+/// least when the last descriptor was sent first, and the last type was asked for or told.
+std::int64_t known_ns(const Conversation& conversation, const Counting& counting) {
   Acknowledgements known;
   const auto each = [&](const auto& act) {
     for (std::size_t k = 0; k < counting.classes.size(); ++k) {
@@ -141,6 +139,7 @@ std::int64_t discovered_ns(const Conversation& conversation, const Counting& cou
                    counting.last_lookup_ns.value_or(INT64_MIN)});
 }
 
+/// When the last participant announced itself first.
 std::int64_t last_start_ns(const Conversation& conversation) {
   std::int64_t last = conversation.first_ns;
   for (const capture::Participant& one : conversation.topology.participants) {
@@ -149,32 +148,24 @@ std::int64_t last_start_ns(const Conversation& conversation) {
   return last;
 }
 
+}  // namespace
+
+Discovered discovered(const Conversation& conversation, const Counting& counting) {
+  return {last_start_ns(conversation) + exact::late_limit(std::nullopt).count(),
+          known_ns(conversation, counting)};
+}
+
 exact::Expense expense_of(const Conversation& conversation, const Counting& counting,
-                          const model::Counts& failure_free, bool incomplete,
-                          const model::WirelessProfile* channel) {
-  const std::int64_t known_ns = discovered_ns(conversation, counting);
-  const std::int64_t end_ns = incomplete ? conversation.last_ns : known_ns;
-  const bool is_late = incomplete || known_ns > last_start_ns(conversation) +
-                                                    exact::late_limit(std::nullopt).count();
+                          const model::Counts& failure_free, const Discovered& discovered,
+                          bool incomplete, const model::WirelessProfile* channel) {
+  const std::int64_t end_ns = incomplete ? conversation.last_ns : discovered.known_ns;
   const Tally tally{conversation, counting, end_ns, channel};
-  const PerKind& unit = channel != nullptr ? tally.airtime : tally.messages;
-  const auto of = [&](Kind kind) { return unit[static_cast<std::size_t>(kind)]; };
-  const auto part = [&](Kind kind, std::uint64_t needed) {
-    return exact::Traffic{of(kind), exact::part_of(static_cast<double>(needed),
-                                                   tally.messages[static_cast<std::size_t>(kind)])};
-  };
   const Repairs repairs = find_repairs(conversation, counting, end_ns);
-  exact::Sent sent;
-  sent.initial_data = of(Kind::initial_data);
-  sent.repair_data = of(Kind::repair_data);
-  sent.needed_repairs = exact::part_of(static_cast<double>(repairs.needed()),
+  const double needed = exact::part_of(static_cast<double>(repairs.needed()),
                                        static_cast<double>(repairs.needed() + repairs.needless()));
-  sent.heartbeats = part(Kind::heartbeat, failure_free.heartbeat);
-  sent.acknacks = part(Kind::acknack, failure_free.acknack);
-  sent.announcements = part(Kind::announcement, failure_free.spdp() + failure_free.of_server());
-  sent.lookups = of(Kind::lookup);
-  sent.user_control = of(Kind::user_control);
-  return exact::expense_of(sent, is_late);
+  const exact::Sent sent = exact::sent_of(channel != nullptr ? tally.airtime : tally.messages,
+                                          tally.messages, failure_free, needed);
+  return exact::expense_of(sent, incomplete || discovered.is_late(discovered.known_ns));
 }
 
 }  // namespace stormproof::doctor

@@ -14,20 +14,22 @@
 
 namespace stormproof::doctor {
 
-/// When the last participant announced itself first.
-[[nodiscard]] std::int64_t last_start_ns(const capture::Conversation& conversation);
+struct Discovered {
+  std::int64_t last_in_time_ns = 0;  ///< what is later is late (`exact::late_limit`)
+  /// When everybody had everything, as far as acknowledgments show it.
+  std::int64_t known_ns = 0;
 
-/// When everybody had everything, as far as the capture shows it: of each relation the first
-/// ACKNACK that acknowledges all that was sent to it, or, where there is none, the last DATA. At
-/// least when the last descriptor was sent first, and the last type was asked for or told.
-[[nodiscard]] std::int64_t discovered_ns(const capture::Conversation& conversation,
-                                         const capture::Counting& counting);
+  [[nodiscard]] bool is_late(std::int64_t time_ns) const { return time_ns > last_in_time_ns; }
+};
+[[nodiscard]] Discovered discovered(const capture::Conversation& conversation,
+                                    const capture::Counting& counting);
 
 /// Until then; `incomplete` if somebody lacks a descriptor. `failure_free` is what the same
 /// participants need.
 [[nodiscard]] exact::Expense expense_of(const capture::Conversation& conversation,
                                         const capture::Counting& counting,
-                                        const model::Counts& failure_free, bool incomplete,
+                                        const model::Counts& failure_free,
+                                        const Discovered& discovered, bool incomplete,
                                         const model::WirelessProfile* channel);
 
 }  // namespace stormproof::doctor
