@@ -1,7 +1,8 @@
-// Compositions are listed in the order of implementations; the last one is that of lives.
+// Compositions are listed in the order of implementations; the last ones are those of lives.
 #include "model/composition_of.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "fsm/composition/compositions.hpp"
 #include "fsm/program/programs.hpp"
@@ -27,13 +28,19 @@ const fsm::program::Program& program_of_exchange(const DdsProfile& dds) {
   return *std::ranges::find(all, "fastdds", &fsm::program::Program::name);
 }
 
-bool is_living_fastdds(const Scenario& scenario) {
-  return scenario.deployment.life && traits_of(scenario.dds).has_living_composition;
+bool is_living(const Scenario& scenario) {
+  const bool lives = scenario.deployment.life || scenario.dds.peers > 0;
+  return lives && traits_of(scenario.dds).has_living_composition;
+}
+
+const fsm::composition::CompositionInfo& living_composition_of(const DdsProfile& dds) {
+  const std::string name = std::string{traits_of(dds).name} + "-living";
+  return *std::ranges::find(fsm::composition::compositions(), name,
+                            &fsm::composition::CompositionInfo::name);
 }
 
 const fsm::composition::CompositionInfo& composition_of(const Scenario& scenario) {
-  return is_living_fastdds(scenario) ? fsm::composition::compositions().back()
-                                     : composition_of(scenario.dds);
+  return is_living(scenario) ? living_composition_of(scenario.dds) : composition_of(scenario.dds);
 }
 
 }  // namespace stormproof::model

@@ -16,9 +16,12 @@ namespace stormproof::model {
 /// DDS's exchange, whoever opens its relations.
 [[nodiscard]] const fsm::program::Program& program_of_exchange(const DdsProfile& dds);
 
-/// Whether participants have a life under Fast DDS's rules: they are those of a composition of
-/// their own (fsm/composition/fastdds_life.hpp), which no engine knows.
-[[nodiscard]] bool is_living_fastdds(const Scenario& scenario);
+/// Whether participants have a life under rules that are a composition of their own, which no
+/// engine knows (fsm/composition/fastdds_life.hpp, cyclone_life.hpp). Those of Cyclone DDS also say
+/// what is announced to peers.
+[[nodiscard]] bool is_living(const Scenario& scenario);
+/// That composition, of a profile that has one.
+[[nodiscard]] const fsm::composition::CompositionInfo& living_composition_of(const DdsProfile& dds);
 [[nodiscard]] const fsm::composition::CompositionInfo& composition_of(const Scenario& scenario);
 
 }  // namespace stormproof::model

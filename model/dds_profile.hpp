@@ -73,7 +73,7 @@ enum class SizesSince : std::uint8_t { v2_6, v3_2, v3_6 };
 /// What `implementation: cyclone` sends by multicast: all that goes to two readers or more, only
 /// announcements, or what the network is good for: all on a wired one, announcements on Wi-Fi. A
 /// scenario says which of the first two that is.
-enum class AllowMulticast : std::uint8_t { always, spdp, by_network };
+enum class AllowMulticast : std::uint8_t { always, spdp, by_network, never };
 /// A truth value of a profile.
 enum class MergeQueued : std::uint8_t { no, yes };
 
@@ -90,6 +90,10 @@ struct SpdpProfile {
   // `implementation: cyclone` only.
   std::uint32_t directed_replies = 4;  ///< to a participant that is recognised
   Nanoseconds directed_reply_interval{1'000'000'000};
+  /// How long the address of a peer at which nobody is known is announced to after the start, and
+  /// that of a participant after it was forgotten; absent: for ever.
+  std::optional<Nanoseconds> initial_prune_delay = {};
+  std::optional<Nanoseconds> discovered_prune_delay = {};
 
   bool operator==(const SpdpProfile&) const = default;
 };
@@ -201,6 +205,9 @@ struct DdsProfile {
   SedpProfile sedp;
   DescriptorProfile descriptors;
   AllowMulticast allow_multicast = AllowMulticast::always;  ///< `implementation: cyclone` only
+  /// `implementation: cyclone` only: to how many ports of each host announcements go, beside the
+  /// group; 0: to nobody who is not known.
+  std::uint32_t peers = 0;
   // `implementation: fastdds` only.
   Discovery discovery = Discovery::simple;
   VersionProfile version;

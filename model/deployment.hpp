@@ -59,12 +59,18 @@ struct Mute {
 
   bool operator==(const Mute&) const = default;
 };
-/// A packet whose reception would be at start ≤ t < end is not received. One direction.
+/// Of whom a side of an outage has the number: of one participant, of all of a host, or of nobody,
+/// as it is everybody.
+enum class Reach : std::uint8_t { participant, host, all };
+/// A packet of another host whose reception would be at start ≤ t < end is not received. One
+/// direction.
 struct Outage {
   std::uint32_t from = 0;
   std::uint32_t to = 0;
   Nanoseconds start;
   Nanoseconds end;
+  Reach from_reach = Reach::participant;
+  Reach to_reach = Reach::participant;
 
   bool operator==(const Outage&) const = default;
 };
@@ -72,14 +78,25 @@ struct Outage {
 /// Who a participant is when it comes back: itself, whom others may still know, or somebody whom
 /// nobody has met.
 enum class Identity : std::uint8_t { same, fresh };
-/// The participant stops without goodbye, and comes back with nothing of what it knew.
+/// Whether it tells the others before.
+enum class Goodbye : std::uint8_t { no, yes };
+/// The participant stops, and comes back with nothing of what it knew.
 struct Restart {
   std::uint32_t participant = 0;
   Nanoseconds stop;
   Nanoseconds start;  ///< > stop
   Identity identity = Identity::same;
+  /// Whether it says that it goes (`implementation: cyclone` only).
+  Goodbye goodbye = Goodbye::no;
 
   bool operator==(const Restart&) const = default;
+};
+/// A participant deletes all that it has, says that it goes, and is gone for ever.
+struct Leave {
+  std::uint32_t participant = 0;
+  Nanoseconds at;
+
+  bool operator==(const Leave&) const = default;
 };
 /// The lease of one participant.
 struct Lease {
@@ -100,6 +117,16 @@ struct LateEndpoints {
   bool operator==(const LateEndpoints&) const = default;
 };
 
+/// A user endpoint that a participant has from the beginning and deletes in the run.
+struct Deletion {
+  std::uint32_t participant = 0;
+  std::optional<std::uint32_t> publication = {};   ///< which of its user publications, or
+  std::optional<std::uint32_t> subscription = {};  ///< which of its user subscriptions
+  Nanoseconds at;
+
+  bool operator==(const Deletion&) const = default;
+};
+
 /// What happened before the run, and what happens to participants in it; only with
 /// rules that know it (model/life.hpp, `ImplementationTraits::knows_lives`).
 struct Life {
@@ -111,6 +138,8 @@ struct Life {
   std::optional<Nanoseconds> lease = {};
   std::vector<Lease> leases = {};  ///< of those with another one
   std::vector<LateEndpoints> endpoints = {};
+  std::vector<Deletion> deletions = {};
+  std::vector<Leave> leaves = {};
 
   bool operator==(const Life&) const = default;
 };

@@ -34,6 +34,8 @@ const char* name_of(EventKind kind) {
                                                                    "heartbeat_time",
                                                                    "ack_time",
                                                                    "thread_run",
+                                                                   "liveliness_time",
+                                                                   "address_time",
                                                                    "client_announcement",
                                                                    "client_sync",
                                                                    "registration_expiry",

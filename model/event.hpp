@@ -42,6 +42,8 @@ enum class EventKind : std::uint8_t {
   heartbeat_time,       ///< subject: writer of Cyclone DDS
   ack_time,             ///< subject: relation of Cyclone DDS
   thread_run,           ///< subject: participant
+  liveliness_time,      ///< subject: participant of Cyclone DDS
+  address_time,         ///< subject: participant of Cyclone DDS
   // With a Discovery Server; of one of its writers: detail: which (model/fastdds/relay.hpp).
   client_announcement,    ///< subject: pair of client and server
   client_sync,            ///< subject: pair of client and server

@@ -108,6 +108,8 @@ struct ImplementationTraits {
   bool knows_lives = false;
   /// these rules are a composition of their own.
   bool has_living_composition = false;
+  /// They know endpoints that are deleted, and participants that say that they go.
+  bool says_goodbye = false;
   /// `amendments` of the profile change its rules.
   bool can_be_amended = false;
   /// Its timers, and what it packs, have keys of its own ("sedp.heartbeat_interval", …) and not
@@ -202,6 +204,9 @@ inline constexpr ImplementationTraits traits_of_programs{
   traits.guide = "specs/guide/cyclone.md";
   traits.vendor = vendor::cyclonedds;
   traits.is_known_to_engines = false;
+  traits.knows_lives = true;
+  traits.has_living_composition = true;
+  traits.says_goodbye = true;
   traits.lease = Nanoseconds{10'000'000'000};  // ddsi_cfgelems.h, LeaseDuration
   traits.has_own_timers = true;
   traits.answers_newcomers = true;

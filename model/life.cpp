@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "model/implementations.hpp"
+
 namespace stormproof::model {
 
 bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time) {
@@ -11,6 +13,7 @@ bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time) {
   };
   const auto has_stopped = [&](const Restart& restart) {
     return restart.participant == participant && time >= restart.stop &&
+           restart.goodbye == Goodbye::no &&
            (time < restart.start || restart.identity == Identity::fresh);
   };
   return std::ranges::any_of(life.mute, is_silent) ||
@@ -23,11 +26,19 @@ bool is_replaced(const Life& life, std::uint32_t participant) {
   });
 }
 
-bool hears(const Life& life, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
+bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
            Nanoseconds now) {
+  if (!deployment.life) return true;
+  const Life& life = *deployment.life;
   if (is_away(life, i, emitted) || is_away(life, j, now)) return false;
+  const auto host = [&](std::uint32_t k) { return deployment.participants[k].host.value; };
+  if (host(i) == host(j)) return true;
+  const auto is_one = [&](Reach reach, std::uint32_t number, std::uint32_t k) {
+    return reach == Reach::all || number == (reach == Reach::host ? host(k) : k);
+  };
   return std::ranges::none_of(life.outages, [&](const Outage& outage) {
-    return outage.from == i && outage.to == j && now >= outage.start && now < outage.end;
+    return is_one(outage.from_reach, outage.from, i) && is_one(outage.to_reach, outage.to, j) &&
+           now >= outage.start && now < outage.end;
   });
 }
 
@@ -59,6 +70,7 @@ Nanoseconds last_start(const Deployment& deployment) {
   for (const LateEndpoints& late : deployment.life->endpoints) {
     last = std::max(last, late.until.value_or(late.at));
   }
+  for (const Deletion& deletion : deployment.life->deletions) last = std::max(last, deletion.at);
   return last;
 }
 
@@ -67,6 +79,7 @@ Nanoseconds last_failure(const Deployment& deployment) {
   if (!deployment.life) return last;
   for (const Outage& outage : deployment.life->outages) last = std::max(last, outage.end);
   for (const Mute& mute : deployment.life->mute) last = std::max(last, mute.from);
+  for (const Leave& leave : deployment.life->leaves) last = std::max(last, leave.at);
   return last;
 }
 
@@ -114,6 +127,17 @@ bool has_successors(const Deployment& deployment) {
              deployment.life->restarts.end();
 }
 
+Scenario as_run(const Scenario& scenario) {
+  Scenario all = scenario;
+  all.deployment = with_successors(scenario.deployment);
+  const bool acts_always = traits_of(scenario.dds).has_event_thread;
+  if (scenario.dds.peers > 0 && !all.deployment.life) all.deployment.life.emplace();
+  if (all.deployment.life && acts_always && !all.deployment.life->lease) {
+    all.deployment.life->lease = lease_of(scenario.dds);
+  }
+  return all;
+}
+
 Deployment with_successors(const Deployment& deployment) {
   Deployment all = deployment;
   if (!has_successors(deployment)) return all;
@@ -121,6 +145,9 @@ Deployment with_successors(const Deployment& deployment) {
     if (restart.identity != Identity::fresh) continue;
     Participant successor = deployment.participants[restart.participant];
     successor.endpoints_done = restart.start + (successor.endpoints_done - successor.start);
+    const Nanoseconds later = restart.start - successor.start;
+    if (successor.open) *successor.open += later;
+    if (successor.ready) *successor.ready += later;
     successor.start = restart.start;
     all.participants.push_back(successor);
     for (const Lease& lease : deployment.life->leases) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/deployment.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::model {
 
@@ -11,8 +12,8 @@ namespace stormproof::model {
 /// Whether somebody else comes back for it; it is never there again.
 [[nodiscard]] bool is_replaced(const Life& life, std::uint32_t participant);
 /// Whether j takes now what i has emitted then: neither is away, and no outage is between them.
-[[nodiscard]] bool hears(const Life& life, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
-                         Nanoseconds now);
+[[nodiscard]] bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j,
+                         Nanoseconds emitted, Nanoseconds now);
 /// Its lease; nothing: it is never forgotten.
 [[nodiscard]] std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant);
 /// Whether somebody may have to be learned again.
@@ -38,5 +39,8 @@ namespace stormproof::model {
 [[nodiscard]] bool has_successors(const Deployment& deployment);
 /// The deployment with a participant more for each that comes back as somebody new.
 [[nodiscard]] Deployment with_successors(const Deployment& deployment);
+/// The scenario as it is run: with successors, and with the library's own lease where it acts
+/// whether it is written down or not.
+[[nodiscard]] Scenario as_run(const Scenario& scenario);
 
 }  // namespace stormproof::model

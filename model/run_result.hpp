@@ -85,6 +85,19 @@ struct LastDelivery {
   Nanoseconds received;
 };
 
+/// What a run had done at some time.
+struct SentUntil {
+  Counts counts;
+  std::uint64_t user_control = 0;
+  std::uint64_t forgotten = 0;  ///< how often somebody's lease ended at somebody else
+  /// Messages of all kinds since the last failure (model/life.hpp).
+  std::uint64_t since_last_failure = 0;
+
+  [[nodiscard]] std::uint64_t messages() const {
+    return counts.total() + counts.gap + user_control;
+  }
+};
+
 struct RunResult {
   static constexpr std::size_t missing_listed = 100;
 
@@ -96,6 +109,9 @@ struct RunResult {
   std::optional<Nanoseconds> recovery_time = {};
   /// With `deployment.life`: messages from the last start on (model/life.hpp), if there was one.
   std::optional<std::uint64_t> messages_since_last_start = {};
+  /// With `deployment.life`: what had been sent when discovery was complete for the last time; of a
+  /// run that did not complete it, until the end.
+  std::optional<SentUntil> until_discovery = {};
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
   std::uint64_t events = 0;        ///< processed events

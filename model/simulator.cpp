@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "model/composition_of.hpp"
+#include "model/cyclone/living_protocol.hpp"
 #include "model/cyclone/protocol.hpp"
 #include "model/engine/implementation_maker.hpp"
 #include "model/engine/network.hpp"
@@ -77,6 +78,7 @@ class Simulator {
       if (event.time > run_.scenario.time_limit) return RunEnd::time_limit;
       run_.now = event.time;
       if (run_.now >= next_start_) note_last_start();
+      if (run_.now >= next_failure_) note_last_failure();
       ++events_;
       is_plain ? handle(event) : process(event);
       if (run_.complete() != discovery_time_.has_value()) note_completeness();
@@ -91,16 +93,30 @@ class Simulator {
 
   /// Who is forgotten has to be learned again.
   void note_completeness() {
-    if (run_.complete())
+    if (run_.complete()) {
       discovery_time_ = run_.now;
-    else
+      until_discovery_ = sent_now();
+    } else {
       discovery_time_.reset();
+    }
+  }
+  SentUntil sent_now() const {
+    SentUntil sent{run_.counts, run_.user_control, run_.forgotten, 0};
+    if (next_failure_ == never) {
+      sent.since_last_failure = sent.messages() - sent_before_failure_;
+    }
+    return sent;
   }
 
   /// What was sent before it.
   void note_last_start() {
     next_start_ = never;
     sent_before_ = run_.counts.total();
+  }
+
+  void note_last_failure() {
+    next_failure_ = never;
+    sent_before_failure_ = sent_now().messages();
   }
 
   /// Whether the run ends because nothing is left to do.
@@ -165,6 +181,9 @@ class Simulator {
       result.recovery_time =
           std::max(Nanoseconds{}, *discovery_time_ - last_failure(run_.scenario.deployment));
     }
+    if (run_.scenario.deployment.life) {
+      result.until_discovery = discovery_time_ ? until_discovery_ : sent_now();
+    }
     if (sent_before_) result.messages_since_last_start = run_.counts.total() - *sent_before_;
     result.counts = run_.counts;
     result.user_control = run_.user_control;
@@ -187,24 +206,31 @@ class Simulator {
   Nanoseconds next_start_ =
       run_.scenario.deployment.life ? last_start(run_.scenario.deployment) : never;
   std::optional<std::uint64_t> sent_before_;
+  /// The last failure, until it is reached; never without a life.
+  Nanoseconds next_failure_ =
+      run_.scenario.deployment.life ? last_failure(run_.scenario.deployment) : never;
+  std::uint64_t sent_before_failure_ = 0;
+  SentUntil until_discovery_;
 };
 
 }  // namespace
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options,
                    const ImplementationMaker& maker) {
-  if (has_successors(scenario.deployment)) {
-    Scenario with_all = scenario;
-    with_all.deployment = with_successors(scenario.deployment);
-    return std::make_unique<Simulator>(with_all, options, maker)->run();
+  if (scenario.deployment.life || scenario.dds.peers > 0) {
+    const Scenario living = as_run(scenario);
+    return std::make_unique<Simulator>(living, options, maker)->run();
   }
   return std::make_unique<Simulator>(scenario, options, maker)->run();
 }
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options) {
-  if (is_living_fastdds(scenario)) {
+  if (is_living(scenario)) {
+    const SameHostPairs same_host = same_host_pairs(scenario.dds);
+    const bool is_cyclone = traits_of(scenario.dds).has_event_thread;
     return simulate(scenario, options,
-                    maker_of<fastdds::LivingProtocol>(same_host_pairs(scenario.dds)));
+                    is_cyclone ? maker_of<cyclone::LivingProtocol>(same_host)
+                               : maker_of<fastdds::LivingProtocol>(same_host));
   }
   const auto maker = [&](auto composition) {
     return maker_for(composition, same_host_pairs(scenario.dds));

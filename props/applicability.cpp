@@ -136,11 +136,19 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
 }
 
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
-  const bool is_living = model::is_living_fastdds(scenario);
+  const bool is_living = model::is_living(scenario);
+  const bool is_read = is_living && property.of_lives &&
+                       model::traits_of(scenario.dds).writer == model::Writer::stateful;
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
-  if (is_living && property.of_lives) why = {};
+  if (is_read) why = {};
   if (!why.empty()) return why;
-  if (is_living && property.about != Vocabulary::everything && !property.of_lives) {
+  if (is_living && property.about != Vocabulary::everything && !is_read) {
+    if (model::traits_of(scenario.dds).has_event_thread) {
+      return "it is stated for participants of Cyclone DDS that nobody forgets, without peers; "
+             "with "
+             "deployment.life or dds.peers only machines, network, results and what rules do are "
+             "checked";
+    }
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";
   }
@@ -169,7 +177,7 @@ std::string_view why_not_provable(const Property& property, const model::Scenari
     return "somebody is at no port that announcements go to (dds.peer_ports), and only runs tell "
            "whether the others hear of it";
   }
-  if (model::is_living_fastdds(scenario)) {
+  if (model::is_living(scenario)) {
     return "the engines that prove it know nobody who forgets or comes back (deployment.life)";
   }
   if (scenario.dds.version != model::VersionProfile{} ||

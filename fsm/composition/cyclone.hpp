@@ -105,26 +105,27 @@ struct AnswerReader : Procedure {
   }
 };
 
-/// Sample by sample, until one is refused: a retransmission that is queued for another reader goes
-/// to all instead.
+/// A sample is repeated: a retransmission that is queued for another reader goes to all instead.
+template <class D>
+void repeat(D& d) {
+  const auto found = d(IsQueuedForIt{}) || (d(MergesQueued{}) && d(IsQueued{}));
+  const auto refused = !found && d(QueueIsFull{});
+  d.when(found && d(MergesQueued{}), [&] { d.perform(SendToAllInstead{}); });
+  d.when(!found && !refused, [&] {
+    d.emit(Data{}, says(Says{Carries{}, [](auto& e) { return e.is_subject(); }}));
+    d.call(Wake{});
+  });
+  d.when(refused, [&] { d.set(SomeRefused{}, typename D::Bool(true)); });
+  d.when(!refused, [&] { d.set(SomeAccepted{}, typename D::Bool(true)); });
+}
+/// Sample by sample, until one is refused.
 struct RepeatListed : Procedure {
   template <class W>
   static void body(W& w) {
     w.set(SomeAccepted{}, typename W::Bool(false));
     w.set(SomeRefused{}, typename W::Bool(false));
-    w.for_descriptors(
-        [](auto& d) { return d(Listed{}) && d(Sent{}) && !d(SomeRefused{}); },
-        [](auto& d) {
-          const auto found = d(IsQueuedForIt{}) || (d(MergesQueued{}) && d(IsQueued{}));
-          const auto refused = !found && d(QueueIsFull{});
-          d.when(found && d(MergesQueued{}), [&] { d.perform(SendToAllInstead{}); });
-          d.when(!found && !refused, [&] {
-            d.emit(Data{}, says(Says{Carries{}, [](auto& e) { return e.is_subject(); }}));
-            d.call(Wake{});
-          });
-          d.when(refused, [&] { d.set(SomeRefused{}, typename W::Bool(true)); });
-          d.when(!refused, [&] { d.set(SomeAccepted{}, typename W::Bool(true)); });
-        });
+    w.for_descriptors([](auto& d) { return d(Listed{}) && d(Sent{}) && !d(SomeRefused{}); },
+                      [](auto& d) { repeat(d); });
     w.when(w(SomeAccepted{}), [&] {
       w.call(AnswerReader{});
       w.call(PacerGoesOn{}, pace<heartbeat_pacer::Hastened>(w));
@@ -132,26 +133,31 @@ struct RepeatListed : Procedure {
   }
 };
 
+/// `repeat` is what is done about what the ACKNACK asks for.
+template <class W, class Repeat>
+void take_acknack(W& w, Repeat repeat) {
+  const auto preemptive = w(IsInitial{});
+  const auto fresh = w(Count{}) > w(LastAckCount{}) || !(w(AckCountsUntil{}) > w(Now{}));
+  const auto below_base = w.count([](auto& d) { return d(BelowBase{}) && d(Exists{}); });
+  const auto asks = w.some([](auto& d) { return d(Listed{}); });
+  const auto peer =
+      w.feed(Peer{}, on<matched_reader::AckNackReceived>,
+             {.accepted = fresh || preemptive, .replies = !asks && !(w(Acked{}) > below_base)});
+  w.when(peer.take, [&] {
+    w.set(LastAckCount{}, w(Count{}));
+    w.set(AckCountsUntil{}, w(Now{}) + w(CountWindow{}));
+    w.when(below_base > w(Acked{}), [&] { w.set(Acked{}, below_base); });
+    w.when(preemptive, [&] {
+      w.call(AnswerReader{});
+      w.call(AnswerGoes{});
+    });
+    w.when(!preemptive, [&] { w.call(repeat); });
+  });
+}
 struct AckNackArrives : Rule<Received<AckNack>> {
   template <class W>
   static void run(W& w) {
-    const auto preemptive = w(IsInitial{});
-    const auto fresh = w(Count{}) > w(LastAckCount{}) || !(w(AckCountsUntil{}) > w(Now{}));
-    const auto below_base = w.count([](auto& d) { return d(BelowBase{}) && d(Exists{}); });
-    const auto asks = w.some([](auto& d) { return d(Listed{}); });
-    const auto peer =
-        w.feed(Peer{}, on<matched_reader::AckNackReceived>,
-               {.accepted = fresh || preemptive, .replies = !asks && !(w(Acked{}) > below_base)});
-    w.when(peer.take, [&] {
-      w.set(LastAckCount{}, w(Count{}));
-      w.set(AckCountsUntil{}, w(Now{}) + w(CountWindow{}));
-      w.when(below_base > w(Acked{}), [&] { w.set(Acked{}, below_base); });
-      w.when(preemptive, [&] {
-        w.call(AnswerReader{});
-        w.call(AnswerGoes{});
-      });
-      w.when(!preemptive, [&] { w.call(RepeatListed{}); });
-    });
+    take_acknack(w, RepeatListed{});
   }
 };
 struct PacketIsProcessed : Rule<Happens<PacketEnds>> {

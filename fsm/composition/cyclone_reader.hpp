@@ -49,42 +49,51 @@ struct ReaderIsOpened : Rule<Happens<ReaderOpens>> {
   }
 };
 
-/// Only the descriptors of endpoints are told to the application, in order.
+/// Only the descriptors of endpoints are told to the application, in order: `notify` is what
+/// happens then.
+template <class W, class Notify>
+void take_data(W& w, Notify&& notify) {
+  const auto reader = judge<cautious_reader::DataReceived>(w);
+  w.when(reader.take_data, [&] {
+    w.set_each(Known{}, [](auto& d) {
+      return d(Known{}) || d.some_from_here([](auto& e) { return e(Carries{}); });
+    });
+    w.set_each(X{}, [](auto& d) { return d(X{}) || d(Carries{}); });
+    w.when(!w(RunEnds{}), [&] {
+      w.for_descriptors(
+          [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
+          notify);
+    });
+  });
+}
 struct DataArrives : Rule<Received<Data>> {
   template <class W>
   static void run(W& w) {
-    const auto reader = judge<cautious_reader::DataReceived>(w);
-    w.when(reader.take_data, [&] {
-      w.set_each(Known{}, [](auto& d) {
-        return d(Known{}) || d.some_from_here([](auto& e) { return e(Carries{}); });
-      });
-      w.set_each(X{}, [](auto& d) { return d(X{}) || d(Carries{}); });
-      w.when(!w(RunEnds{}), [&] {
-        w.for_descriptors(
-            [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
-            [](auto& d) {
-              d.set(Notified{}, typename W::Bool(true));
-              d.perform(OpenTopics{});
-            });
-      });
+    take_data(w, [](auto& d) {
+      d.set(Notified{}, typename W::Bool(true));
+      d.perform(OpenTopics{});
     });
   }
 };
 
+template <class W>
+void take_heartbeat(W& w) {
+  const auto last = w.count([](auto& d) { return d(Known{}) || d(Announces{}); });
+  const auto fresh =
+      w(Count{}) > w(LastHeartbeatCount{}) || !(w(HeartbeatCountsUntil{}) > w(Now{}));
+  const auto reader = judge<cautious_reader::HeartbeatReceived>(w, last, fresh, w(IsDirected{}));
+  w.when(reader.learn,
+         [&] { w.set_each(Known{}, [](auto& d) { return d(Known{}) || d(Announces{}); }); });
+  w.when(reader.note, [&] {
+    w.set(LastHeartbeatCount{}, w(Count{}));
+    w.set(HeartbeatCountsUntil{}, w(Now{}) + w(CountWindow{}));
+  });
+  w.call(MoveAckTimer{}, reader);
+}
 struct HeartbeatArrives : Rule<Received<Heartbeat>> {
   template <class W>
   static void run(W& w) {
-    const auto last = w.count([](auto& d) { return d(Known{}) || d(Announces{}); });
-    const auto fresh =
-        w(Count{}) > w(LastHeartbeatCount{}) || !(w(HeartbeatCountsUntil{}) > w(Now{}));
-    const auto reader = judge<cautious_reader::HeartbeatReceived>(w, last, fresh, w(IsDirected{}));
-    w.when(reader.learn,
-           [&] { w.set_each(Known{}, [](auto& d) { return d(Known{}) || d(Announces{}); }); });
-    w.when(reader.note, [&] {
-      w.set(LastHeartbeatCount{}, w(Count{}));
-      w.set(HeartbeatCountsUntil{}, w(Now{}) + w(CountWindow{}));
-    });
-    w.call(MoveAckTimer{}, reader);
+    take_heartbeat(w);
   }
 };
 
@@ -113,17 +122,22 @@ struct Reply : Procedure {
   }
 };
 
+/// What the reader's timer makes it say, and what it wants done with the timer.
+template <class W>
+auto answer(W& w) {
+  w.feed(AckTimer{}, on<movable_timer::Taken>);
+  const auto reader = judge<cautious_reader::TimerFired>(w);
+  w.when(reader.preempt, [&] {
+    w.emit(AckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
+  });
+  w.when(reader.reply, [&] { w.call(Reply{}, reader); });
+  w.when(reader.preempt || reader.reply, [&] { w.set(QuietUntil{}, w(Now{}) + w(AckDelay{})); });
+  return reader;
+}
 struct AckTimerIsTaken : Rule<Happens<AckTimerFires>> {
   template <class W>
   static void run(W& w) {
-    w.feed(AckTimer{}, on<movable_timer::Taken>);
-    const auto reader = judge<cautious_reader::TimerFired>(w);
-    w.when(reader.preempt, [&] {
-      w.emit(AckNack{}, says(Says{IsInitial{}, typename W::Bool(true)}));
-    });
-    w.when(reader.reply, [&] { w.call(Reply{}, reader); });
-    w.when(reader.preempt || reader.reply, [&] { w.set(QuietUntil{}, w(Now{}) + w(AckDelay{})); });
-    w.call(MoveAckTimer{}, reader);
+    w.call(MoveAckTimer{}, answer(w));
   }
 };
 

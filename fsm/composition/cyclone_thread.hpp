@@ -127,20 +127,23 @@ struct ReplyTimerIsTaken : Rule<Happens<ReplyTimerFires>> {
            [&] { w.call(MoveReplyTimer{}, DirectedReplyInterval{}); });
   }
 };
+/// Both sides of all builtin relations open, and the one who has announced itself is answered.
+template <class W>
+void recognise(W& w) {
+  w.set(Recognised{}, typename W::Bool(true));
+  w.for_streams([](auto& r) {
+    r.reverse([](auto& back) { back.raise(WriterOpens{}); });
+    r.raise(ReaderOpens{});
+  });
+  w.when(!w(IsDirected{}) && w(DirectedReplies{}) > 0,
+         [&] { w.reverse([](auto& back) { back.call(MoveReplyTimer{}, Immediately{}); }); });
+}
 /// What a participant does when it hears of another one for the first time. `w` is the pair of the
 /// one who announced itself and the one who hears it.
 struct AnnouncementArrives : Rule<Received<Spdp>> {
   template <class W>
   static void run(W& w) {
-    w.when(!w(Recognised{}), [&] {
-      w.set(Recognised{}, typename W::Bool(true));
-      w.for_streams([](auto& r) {
-        r.reverse([](auto& back) { back.raise(WriterOpens{}); });
-        r.raise(ReaderOpens{});
-      });
-      w.when(!w(IsDirected{}) && w(DirectedReplies{}) > 0,
-             [&] { w.reverse([](auto& back) { back.call(MoveReplyTimer{}, Immediately{}); }); });
-    });
+    w.when(!w(Recognised{}), [&] { recognise(w); });
   }
 };
 

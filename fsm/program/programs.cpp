@@ -2,7 +2,7 @@
 #include "fsm/program/programs.hpp"
 
 #include "fsm/composition/amended.hpp"
-#include "fsm/composition/cyclone.hpp"
+#include "fsm/composition/cyclone_life.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/fastdds_life.hpp"
 #include "fsm/composition/paper.hpp"
@@ -12,10 +12,13 @@
 namespace stormproof::fsm::program {
 
 const std::vector<Program>& programs() {
-  static const std::vector<Program> all{
-      recorded<composition::paper::Paper>(),     recorded<composition::fastdds::FastDds>(),
-      recorded<composition::cyclone::Cyclone>(), recorded<composition::server::FastDdsServer>(),
-      recorded<composition::amended::Amended>(), recorded<composition::fastdds::FastDdsLiving>()};
+  static const std::vector<Program> all{recorded<composition::paper::Paper>(),
+                                        recorded<composition::fastdds::FastDds>(),
+                                        recorded<composition::cyclone::Cyclone>(),
+                                        recorded<composition::server::FastDdsServer>(),
+                                        recorded<composition::amended::Amended>(),
+                                        recorded<composition::fastdds::FastDdsLiving>(),
+                                        recorded<composition::cyclone::CycloneLiving>()};
   return all;
 }
 

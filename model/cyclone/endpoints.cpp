@@ -26,7 +26,8 @@ constexpr std::array names{"publications",         "subscriptions",       "livel
 std::uint32_t writers_per_participant(const Topology& topology) {
   std::uint32_t most = default_publications;
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
-    most = std::max(most, topology.descriptor_count(i, Stream::pub));
+    most =
+        std::max(most, topology.descriptor_count(i, Stream::pub) + topology.late_publications(i));
   }
   return writer::first_topic + topics_of_node + most - default_publications;
 }

@@ -43,8 +43,10 @@ inline constexpr std::int64_t announcement_bytes = 316;
 inline constexpr std::int64_t announcement_with_multicast_bytes = 372;
 inline constexpr std::int64_t heartbeat_bytes = 32;
 inline constexpr std::int64_t acknack_bytes = 28;
+inline constexpr std::int64_t gap_bytes = 32;
 inline constexpr std::int64_t bitmap_word_bytes = 4;
-inline constexpr std::int64_t timestamp_bytes = 12;            ///< before DATA
+inline constexpr std::int64_t timestamp_bytes = 12;  ///< before DATA
+inline constexpr std::int64_t deletion_bytes = 64;   ///< of an endpoint, or of a participant
 inline constexpr std::int64_t largest_submessage_bytes = 372;  ///< except ACKNACKs
 
 /// Bytes of the DATA of a sample, its timestamp included.

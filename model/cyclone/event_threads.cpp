@@ -14,6 +14,7 @@ EventThreads::EventThreads(const RunState& run)
     : steps_of_{run},
       sedp_{run.scenario.dds.sedp},
       multicast_{run.scenario.dds.allow_multicast == AllowMulticast::always},
+      samples_{run.scenario, run.topology},
       stride_{writers_per_participant(run.topology)},
       writers_(std::size_t{stride_} * run.topology.participant_count()) {
   for (Number i = 0; i < run.topology.participant_count(); ++i) threads_.emplace_back(sedp_);
@@ -21,14 +22,20 @@ EventThreads::EventThreads(const RunState& run)
 
 std::uint32_t EventThreads::samples_of(Number w) const {
   const Number slot = w % stride_;
-  if (slot == writer::liveliness) return 1;
+  if (slot == writer::liveliness) return samples_.signs_of_life(w / stride_);
   if (slot > writer::liveliness) return 0;
-  return steps_of_.topology.descriptor_count(w / stride_, stream_of(slot));
+  return samples_.count(w / stride_, stream_of(slot));
 }
 
 void EventThreads::match(Number r) {
   Writer& writer = writers_[writer_of(r)];
   writer.readers.insert(std::ranges::lower_bound(writer.readers, r), r);
+  ++writer.version;
+}
+
+void EventThreads::unmatch(Number r) {
+  Writer& writer = writers_[writer_of(r)];
+  std::erase(writer.readers, r);
   ++writer.version;
 }
 
@@ -68,7 +75,28 @@ Message EventThreads::data(Number w, Number sample) const {
   Submessage content;
   content.kind = Submessage::Kind::data;
   content.sample = sample;
-  return message(std::move(content), w / stride_, w % stride_, data_bytes(w % stride_, sample));
+  const Number slot = w % stride_;
+  if (slot > writer::subscriptions) {
+    return message(std::move(content), w / stride_, slot, data_bytes(slot, sample));
+  }
+  const Sample said = samples_.of(w / stride_, stream_of(slot), sample);
+  return message(
+      std::move(content), w / stride_, slot,
+      said.deletes ? timestamp_bytes + deletion_bytes : data_bytes(slot, said.descriptor));
+}
+
+/// Without a list if the samples are in a row.
+Message EventThreads::gap(Number r, DescriptorSet&& samples) const {
+  Number end_of_first = samples.lowest();
+  while ((samples.word(end_of_first / 64) >> end_of_first % 64 & 1) != 0) ++end_of_first;
+  const Number bits = end_of(samples) - end_of_first;
+  Submessage content;
+  content.kind = Submessage::Kind::gap;
+  content.bitmap = std::move(samples);
+  Message m = message(std::move(content), ends_of(r).source, r % stride_,
+                      gap_bytes + bitmap_word_bytes * ((bits + bits_per_word - 1) / bits_per_word));
+  m.to = Destination::only(ends_of(r).destination);
+  return m;
 }
 
 Message EventThreads::announcement(Number i) const {

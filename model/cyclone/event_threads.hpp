@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/cyclone/endpoints.hpp"
+#include "model/cyclone/life_samples.hpp"
 #include "model/cyclone/packer.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/engine/submessage.hpp"
@@ -30,7 +31,14 @@ class EventThreads {
   [[nodiscard]] const std::vector<Number>& readers(Number w) const { return writers_[w].readers; }
 
  protected:
-  enum class TimerKind : std::uint8_t { acknack, heartbeat, announcement, reply };
+  enum class TimerKind : std::uint8_t {
+    acknack,
+    heartbeat,
+    announcement,
+    reply,
+    liveliness,
+    address
+  };
   struct DueTimer {
     TimerKind kind{};
     Number owner = 0;
@@ -55,11 +63,13 @@ class EventThreads {
   };
 
   void match(Number relation);
+  void unmatch(Number relation);
   [[nodiscard]] Destination readers_of(Number writer) const;
 
   // Messages, without their destinations.
   [[nodiscard]] Message heartbeat(Number writer, Number announced, std::int64_t count,
                                   bool directed) const;
+  [[nodiscard]] Message gap(Number relation, DescriptorSet&& samples) const;
   [[nodiscard]] Message data(Number writer, Number sample) const;
   [[nodiscard]] Message announcement(Number i) const;
   /// `known`: of how many samples its reader knows; the bitmap ends at the last of them.
@@ -88,6 +98,7 @@ class EventThreads {
   const RunState& steps_of_;
   const SedpProfile& sedp_;
   const bool multicast_;
+  const LifeSamples samples_;
   const Number stride_;  ///< writers of each participant
   std::vector<Thread> threads_;
 

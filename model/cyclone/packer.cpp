@@ -9,13 +9,15 @@ namespace stormproof::model::cyclone {
 
 namespace {
 
-/// Sets of several addresses are never equal, but the readers of a writer are themselves as long as
-/// nobody matches.
+/// Sets of several addresses are never equal, nor are those of announcements that are not the
+/// group, but the readers of a writer are themselves as long as nobody matches.
 bool same_destination(const Destination& a, const Destination& b) {
   if (a.is_set != b.is_set) return false;
   if (!a.is_set) return a.addresses == b.addresses;
   const bool of_writers = a.writer != UINT32_MAX;
   if (of_writers && a.writer == b.writer && a.version == b.version) return true;
+  const bool of_announcements = a.writer == b.writer && !of_writers;
+  if (of_announcements && a.addresses.front() != group) return false;
   return a.addresses.size() == 1 && a.addresses == b.addresses;
 }
 
@@ -36,6 +38,7 @@ void Packer::put(Message&& message) {
     open_->of_user = message.of_user;
   }
   open_->bytes += message.bytes;
+  open_->is_complete = message.completes;
   open_->has_retransmission = open_->has_retransmission || message.retransmission;
   open_->contents.push_back(std::move(message.content));
 }

@@ -37,7 +37,8 @@ struct Message {
   Destination to;
   std::int64_t bytes = 0;
   bool retransmission = false;
-  bool of_user = false;  ///< of a user topic, which has ports of its own
+  bool of_user = false;    ///< of a user topic, which has ports of its own
+  bool completes = false;  ///< the packet that it joins is sent at once
 };
 
 /// Messages that travel together.
@@ -47,6 +48,7 @@ struct Bundle {
   std::int64_t bytes = 0;  ///< UDP payload
   bool has_retransmission = false;
   bool of_user = false;
+  bool is_complete = false;
 };
 
 class Packer {
@@ -59,7 +61,9 @@ class Packer {
   /// What is held opens a packet.
   void open_held();
   /// The open packet, complete or because there is nothing more to add, is to be sent now.
-  [[nodiscard]] bool is_complete() const { return held_.has_value(); }
+  [[nodiscard]] bool is_complete() const {
+    return held_.has_value() || (open_ && open_->is_complete);
+  }
   [[nodiscard]] bool has_open() const { return open_.has_value(); }
   [[nodiscard]] Bundle take_open();
 

@@ -7,10 +7,12 @@
 //   packer.cpp         which messages share a packet
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "model/cyclone/sender.hpp"
 #include "model/cyclone/thread_steps.hpp"
 #include "model/engine/network.hpp"
 #include "model/engine/stored.hpp"
@@ -27,15 +29,22 @@ struct Columns : Numbers {
   static way::Bits column(comp::X);
 };
 
-class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone>, Columns,
-                                     fsm::TypeList<rules::WriterOpen>>,
-                       public ThreadSteps<Protocol> {
+/// `Self` is the host, and `Steps` what it has of ThreadSteps.
+template <class Self, class Composition_, class Columns_, class Steps>
+class ProtocolOf : public Stored<Self, HostBase, ThingsOf<Composition_>, Columns_,
+                                 fsm::TypeList<rules::WriterOpen>>,
+                   public Steps {
+ protected:
+  using Stored = model::Stored<Self, HostBase, ThingsOf<Composition_>, Columns_,
+                               fsm::TypeList<rules::WriterOpen>>;
+  using ThreadSteps = Steps;
+
  public:
   using Number = std::uint32_t;
-  using Composition = rules::Cyclone;
+  using Composition = Composition_;
   using Packet = Submessage;  ///< rules receive submessages
 
-  Protocol(RunState& run, Network& network);
+  ProtocolOf(RunState& run, Network& network);
 
   void start() override;
   void handle(const Event& event) override;
@@ -44,7 +53,7 @@ class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone
     if (event.kind != EventKind::thread_run) return {};
     return event.subject;
   }
-  void count(const model::Packet& packet) override;
+  void count(const model::Packet& packet) override { sender_.count_admitted(packet); }
   void source_completed(const model::Packet&) override {}
   [[nodiscard]] bool receives_separately() const override { return true; }
   [[nodiscard]] std::vector<Number> receivers(const model::Packet& packet) const override;
@@ -69,37 +78,38 @@ class Protocol final : public Stored<Protocol, HostBase, ThingsOf<rules::Cyclone
   // Facts that are kept up to date.
   template <class World>
   [[nodiscard]] Number fact(rules::History, const World& w) const {
-    return first<rules::Exists>(w.template number<comp::owner::writer>());
+    return this->template first<rules::Exists>(w.template number<comp::owner::writer>());
   }
   template <class World>
   [[nodiscard]] Number fact(rules::FirstMissing, const World& w) const {
-    return first<comp::X>(w.template number<comp::owner::relation>()) + 1;
+    return this->template first<comp::X>(w.template number<comp::owner::relation>()) + 1;
   }
 
   // What steps ask of it.
   template <class Trigger>
   void run(Number n, const Packet* m = nullptr, Number descriptor = 0) {
-    run_rule<Trigger>(*this, n, m, descriptor);
+    run_rule<Trigger>(static_cast<Self&>(*this), n, m, descriptor);
   }
   void send_copy(Number i, Number to);
   [[nodiscard]] bool pauses(Number i) const {
-    return run_.scenario.deployment.time_to_send() > Nanoseconds{0} || network_.stalls(i);
+    return this->run_.scenario.deployment.time_to_send() > Nanoseconds{0} || sender_.stalls(i);
   }
 
+ protected:
+  /// The packet that thread i sends, to a participant or to the group.
+  [[nodiscard]] model::Packet packet_of(Number i, Number to) const;
+
+  Sender sender_;
+
  private:
-  // protocol.cpp
   void take(Number relation, Number word, std::uint64_t received);
-
-  // sender.cpp
-  TrafficClass count(const Submessage& m, Number pair, bool to_group);
-  static TrafficClass count_control(const Submessage& m, Counts& counts,
-                                    std::uint64_t& user_control);
-
-  Network& network_;
-  // Samples that have been sent: to the group, by writer, stride · participant + writer; by
-  // unicast, by relation, stride · pair + writer.
-  std::vector<std::vector<std::uint64_t>> delivered_to_group_;
-  std::vector<std::vector<std::uint64_t>> delivered_;
 };
+
+class Protocol final : public ProtocolOf<Protocol, rules::Cyclone, Columns, ThreadSteps<Protocol>> {
+ public:
+  using ProtocolOf::ProtocolOf;
+};
+
+extern template class ProtocolOf<Protocol, rules::Cyclone, Columns, ThreadSteps<Protocol>>;
 
 }  // namespace stormproof::model::cyclone

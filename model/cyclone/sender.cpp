@@ -1,7 +1,7 @@
 // Packets of Cyclone DDS, copy by copy, and what their submessages count as.
-#include <algorithm>
+#include "model/cyclone/sender.hpp"
 
-#include "model/cyclone/protocol.hpp"
+#include <utility>
 
 namespace stormproof::model::cyclone {
 
@@ -13,35 +13,49 @@ bool mark(std::vector<std::uint64_t>& bits, std::uint32_t d) {
   bits[d / 64] |= bit;
   return marked;
 }
+/// It has no lists of its own.
+model::Packet copy_of(const model::Packet& packet) {
+  model::Packet copy;
+  copy.become(packet);
+  copy.submessages = packet.submessages;
+  return copy;
+}
 }  // namespace
 
+Sender::Sender(RunState& run, Network& network, const EventThreads& threads)
+    : run_{run},
+      network_{network},
+      stride_{threads.writer_layout().stride},
+      delivered_to_group_(std::size_t{stride_} * run.topology.participant_count()),
+      delivered_(std::size_t{stride_} * run.topology.pair_count()) {
+  for (Number w = 0; w < delivered_to_group_.size(); ++w) {
+    delivered_to_group_[w].resize(words_for(threads.samples_of(w)));
+  }
+  for (Number r = 0; r < delivered_.size(); ++r) {
+    const Number writer = stride_ * run.topology.pair(r / stride_).source + r % stride_;
+    delivered_[r].resize(words_for(threads.samples_of(writer)));
+  }
+}
+
 /// One packet; copies to the same host do not see the channel, and are not counted.
-void Protocol::send_copy(Number i, Number to) {
-  const Thread& thread = threads_[i];
-  const bool to_group = to == group;
-  const auto packet = [&] {
-    model::Packet packet;
-    packet.kind = PacketKind::rtps_message;
-    packet.to_group = to_group;
-    packet.pair = to_group ? i : run_.topology.pair_between(i, to);
-    packet.payload_bytes = static_cast<Number>(thread.bytes);
-    packet.submessages = thread.contents;
-    return packet;
-  };
-  if (to_group) {
-    for (Number pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
-         ++pair) {
-      const Pair& ends = run_.topology.pair(pair);
-      if (!ends.cross_host) network_.loop_back(packet(), ends.destination);
+void Sender::send(Number i, Number to, model::Packet packet) {
+  const Topology& topology = run_.topology;
+  if (packet.to_group) {
+    for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1); ++pair) {
+      const Pair& ends = topology.pair(pair);
+      if (!ends.cross_host) network_.loop_back(copy_of(packet), ends.destination);
     }
-  } else if (!run_.topology.pair(run_.topology.pair_between(i, to)).cross_host) {
-    network_.loop_back(packet(), to);
+  } else if (!topology.pair(packet.pair).cross_host) {
+    network_.loop_back(std::move(packet), to);
     return;
   }
-  model::Packet sent = packet();
+  emit(i, std::move(packet));
+}
+
+void Sender::emit(Number i, model::Packet&& sent) {
   sent.use = TrafficClass::user_control;
-  for (const Submessage& m : *thread.contents) {
-    const TrafficClass use = count(m, sent.pair, to_group);
+  for (const Submessage& m : *sent.submessages) {
+    const TrafficClass use = count(m, sent.pair, sent.to_group);
     if (use == TrafficClass::initial_data) ++sent.initial_data;
     if (use == TrafficClass::repair_data) ++sent.repair_data;
     sent.use = std::min(sent.use, use);
@@ -51,8 +65,8 @@ void Protocol::send_copy(Number i, Number to) {
 }
 
 /// What a submessage is for that is neither announcement nor DATA of a stream; it counts there.
-TrafficClass Protocol::count_control(const Submessage& m, Counts& counts,
-                                     std::uint64_t& user_control) {
+TrafficClass Sender::count_control(const Submessage& m, Counts& counts,
+                                   std::uint64_t& user_control) {
   if (m.writer > writer::subscriptions) {
     ++user_control;
     return TrafficClass::user_control;
@@ -61,13 +75,17 @@ TrafficClass Protocol::count_control(const Submessage& m, Counts& counts,
     ++counts.heartbeat;
     return TrafficClass::heartbeat;
   }
+  if (m.kind == Submessage::Kind::gap) {
+    ++counts.gap;
+    return TrafficClass::heartbeat;
+  }
   ++counts.acknack;
   return TrafficClass::acknack;
 }
 
 /// Counts a submessage on its way to the destination of `pair`, or from participant `pair` to the
 /// group; says what it is for.
-TrafficClass Protocol::count(const Submessage& m, Number pair, bool to_group) {
+TrafficClass Sender::count(const Submessage& m, Number pair, bool to_group) {
   const bool later = counts_at_admission(run_);
   Counts of_no_interest;
   std::uint64_t control_of_no_interest = 0;
@@ -86,7 +104,7 @@ TrafficClass Protocol::count(const Submessage& m, Number pair, bool to_group) {
   return again ? TrafficClass::repair_data : TrafficClass::initial_data;
 }
 
-void Protocol::count(const model::Packet& packet) {
+void Sender::count_admitted(const model::Packet& packet) {
   run_.counts.initial_data += packet.initial_data;
   run_.counts.repair_data += packet.repair_data;
   for (const Submessage& m : *packet.submessages) {

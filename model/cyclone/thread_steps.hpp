@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "fsm/composition/cyclone.hpp"
+#include "fsm/composition/cyclone_life.hpp"
 #include "model/cyclone/event_threads.hpp"
 #include "model/engine/columns.hpp"
 #include "model/engine/packet.hpp"
@@ -38,7 +38,8 @@ struct Numbers : PlainColumns {
   }
 };
 
-template <class Host>
+/// `lives`: its participants have a life (model/cyclone/living_steps.hpp).
+template <class Host, bool lives = false>
 class ThreadSteps : public EventThreads {
  public:
   using EventThreads::EventThreads;
@@ -217,32 +218,45 @@ class ThreadSteps : public EventThreads {
     return received & ~host().word(comp::X{}, r, k);
   }
 
- private:
   [[nodiscard]] Host& host() { return static_cast<Host&>(*this); }
   [[nodiscard]] const Host& host() const { return static_cast<const Host&>(*this); }
   template <class Occasion>
   void happen(Number n, Number descriptor = 0) {
     host().template run<comp::Happens<Occasion>>(n, nullptr, descriptor);
   }
+  /// Whether participant of writer w has the endpoint; whether the reader of relation r knows it.
+  [[nodiscard]] bool owns(Number w, Number descriptor) const {
+    return host().has(rules::Exists{}, w, descriptor);
+  }
+  [[nodiscard]] bool knows(Number r, Number descriptor) const {
+    return host().has(rules::Notified{}, r, descriptor);
+  }
+  void open_created(Number w, Number descriptor);
+  void open_notified(Number r, Number descriptor);
+  void work(Number i);
+
+ private:
   [[nodiscard]] Message heartbeat_now(Number w, bool directed) const {
-    return heartbeat(w, host().template first<rules::Exists>(w),
-                     host().template at<rules::HeartbeatCount>(w), directed);
+    Message m = heartbeat(w, host().template first<rules::Exists>(w),
+                          host().template at<rules::HeartbeatCount>(w), directed);
+    if constexpr (lives) m.content.first = host().template first<rules::Gone>(w);
+    return m;
   }
   void receive(const Submessage& m, Number sender, Number receiver);
-  void work(Number i);
   bool next_task(Thread& thread);
   void fire(const DueTimer& timer);
   void note_sent(Thread& thread);
-  void open_created(Number w, Number sample);
-  void open_notified(Number r, Number sample);
 };
 
-template <class Host>
-void ThreadSteps<Host>::take_in(const Packet& packet, Number receiver) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::take_in(const Packet& packet, Number receiver) {
   const Participant& p = steps_of_.scenario.deployment.participants[receiver];
   if (steps_of_.now < p.open.value_or(p.start)) return;
   const Topology& topology = steps_of_.topology;
   const Number sender = packet.multicast() ? packet.pair : topology.pair(packet.pair).source;
+  if constexpr (lives) {
+    happen<rules::PacketBegins>(topology.pair_between(sender, receiver));
+  }
   for (const Submessage& m : *packet.submessages) {
     receive(m, sender, receiver);
     if (steps_of_.ends_now()) return;
@@ -250,8 +264,8 @@ void ThreadSteps<Host>::take_in(const Packet& packet, Number receiver) {
   happen<rules::PacketEnds>(receiver);
 }
 
-template <class Host>
-void ThreadSteps<Host>::receive(const Submessage& m, Number sender, Number receiver) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::receive(const Submessage& m, Number sender, Number receiver) {
   const Topology& topology = steps_of_.topology;
   const Number pair = m.kind == Submessage::Kind::acknack ? topology.pair_between(receiver, sender)
                                                           : topology.pair_between(sender, receiver);
@@ -265,12 +279,14 @@ void ThreadSteps<Host>::receive(const Submessage& m, Number sender, Number recei
       return host().template run<comp::Received<rules::Heartbeat>>(relation, &m);
     case Submessage::Kind::acknack:
       return host().template run<comp::Received<rules::AckNack>>(relation, &m);
+    case Submessage::Kind::gap:
+      if constexpr (lives) host().template run<comp::Received<rules::Gap>>(relation, &m);
   }
 }
 
-template <class Host>
+template <class Host, bool lives>
 template <class World>
-void ThreadSteps<Host>::perform(rules::Announce, World& w) {
+void ThreadSteps<Host, lives>::perform(rules::Announce, World& w) {
   const auto i = w.template number<comp::owner::participant>();
   Message m = announcement(i);
   m.to.is_set = true;
@@ -284,8 +300,8 @@ void ThreadSteps<Host>::perform(rules::Announce, World& w) {
   enqueue(i, std::move(m));
 }
 
-template <class Host>
-void ThreadSteps<Host>::work(Number i) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::work(Number i) {
   Thread& thread = threads_[i];
   while (true) {
     if (!thread.left.empty()) {
@@ -296,6 +312,10 @@ void ThreadSteps<Host>::work(Number i) {
       return happen<rules::ThreadPauses>(i);
     }
     thread.packer.open_held();
+    if (thread.packer.is_complete()) {
+      note_sent(thread);
+      continue;
+    }
     if (!next_task(thread)) {
       if (!thread.packer.has_open()) break;
       note_sent(thread);
@@ -311,8 +331,8 @@ void ThreadSteps<Host>::work(Number i) {
 }
 
 /// Fires a timer, or takes the first message of the queue; false if there is neither.
-template <class Host>
-bool ThreadSteps<Host>::next_task(Thread& thread) {
+template <class Host, bool lives>
+bool ThreadSteps<Host, lives>::next_task(Thread& thread) {
   if (!thread.given.empty()) return true;  // only a mistake gives more than one message
   if (thread.list.empty()) return take_queued(thread);
   const DueTimer timer = thread.list.front();
@@ -321,8 +341,8 @@ bool ThreadSteps<Host>::next_task(Thread& thread) {
   return true;
 }
 
-template <class Host>
-void ThreadSteps<Host>::fire(const DueTimer& timer) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::fire(const DueTimer& timer) {
   switch (timer.kind) {
     case TimerKind::acknack:
       return happen<rules::AckTimerFires>(timer.owner);
@@ -332,12 +352,17 @@ void ThreadSteps<Host>::fire(const DueTimer& timer) {
       return happen<rules::SpdpTimerFires>(timer.owner);
     case TimerKind::reply:
       return happen<rules::ReplyTimerFires>(timer.owner);
+    case TimerKind::liveliness:
+      if constexpr (lives) happen<rules::LivelinessTimerFires>(timer.owner);
+      return;
+    case TimerKind::address:
+      if constexpr (lives) happen<rules::AddressTimerFires>(timer.owner);
   }
 }
 
 /// The packet that is filled is sent from now on.
-template <class Host>
-void ThreadSteps<Host>::note_sent(Thread& thread) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::note_sent(Thread& thread) {
   begin_to_send(thread);
   for (const Submessage& m : *thread.contents) {
     if (m.kind != Submessage::Kind::data) continue;
@@ -349,17 +374,17 @@ void ThreadSteps<Host>::note_sent(Thread& thread) {
 
 /// Participant i has created a descriptor: what it has been notified of is the peers' other side of
 /// the topic.
-template <class Host>
-void ThreadSteps<Host>::open_created(Number w, Number sample) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::open_created(Number w, Number descriptor) {
   const Stream s = stream_of(w % stride_);
-  const Number topic = topic_writer(s, sample);
+  const Number topic = topic_writer(s, descriptor);
   if (topic == writer::none) return;
   const Topology& topology = steps_of_.topology;
   const Number i = w / stride_;
   for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1); ++pair) {
     const Number reverse = topology.pair(pair).reverse;
     const Number told = stride_ * reverse + slot_of(other(s));
-    if (!host().has(rules::Notified{}, told, descriptor_of(topic, other(s)))) continue;
+    if (!host().knows(told, descriptor_of(topic, other(s)))) continue;
     if (s == Stream::pub) {
       happen<rules::WriterOpens>(stride_ * pair + topic);
     } else {
@@ -369,14 +394,14 @@ void ThreadSteps<Host>::open_created(Number w, Number sample) {
 }
 
 /// The reader of the relation has been notified of a descriptor.
-template <class Host>
-void ThreadSteps<Host>::open_notified(Number r, Number sample) {
+template <class Host, bool lives>
+void ThreadSteps<Host, lives>::open_notified(Number r, Number descriptor) {
   if (r % stride_ > writer::subscriptions) return;
   const Stream s = stream_of(r % stride_);
-  const Number topic = topic_writer(s, sample);
+  const Number topic = topic_writer(s, descriptor);
   if (topic == writer::none) return;
   const Number own = stride_ * ends_of(r).destination + slot_of(other(s));
-  if (!host().has(rules::Exists{}, own, descriptor_of(topic, other(s)))) return;
+  if (!host().owns(own, descriptor_of(topic, other(s)))) return;
   if (s == Stream::pub) {
     happen<comp::ReaderOpens>(stride_ * (r / stride_) + topic);
   } else {

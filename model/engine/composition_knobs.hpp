@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fsm/composition/amended_parts.hpp"
-#include "fsm/composition/cyclone.hpp"
+#include "fsm/composition/cyclone_life.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/paper.hpp"
 #include "fsm/composition/server.hpp"

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "fsm/composition/amended.hpp"
+#include "fsm/composition/cyclone_life.hpp"
 #include "fsm/composition/fastdds_life.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/timer_kinds.hpp"
@@ -33,12 +34,13 @@ using Knobs = TypeList<
     comp::cyclone::AutoReschedNackDelay, comp::cyclone::PreEmptiveAckDelay,
     comp::cyclone::PreEmptiveRepeatDelay, comp::cyclone::CountWindow,
     comp::cyclone::SpdpStartupPeriod, comp::cyclone::SpdpPeriod, comp::cyclone::DirectedReplies,
-    comp::cyclone::DirectedReplyInterval, comp::server::ClientSyncPeriod,
-    comp::server::RoutinePeriod, comp::server::RegistrationHeartbeatPeriod,
-    comp::server::RegistrationResponseDelay, comp::server::KnownByLocator,
-    comp::amended::InitialResets, comp::amended::InitialArms, comp::amended::IgnoresLateInitial,
-    comp::amended::AsksOnce, comp::amended::AsksAtOnceBeforeCreation, comp::amended::AsksByAge,
-    comp::amended::AgePeriod, comp::amended::StopsWhenComplete, comp::amended::ReopensAcknowledged,
+    comp::cyclone::DirectedReplyInterval, comp::cyclone::PiggybackDelay,
+    comp::server::ClientSyncPeriod, comp::server::RoutinePeriod,
+    comp::server::RegistrationHeartbeatPeriod, comp::server::RegistrationResponseDelay,
+    comp::server::KnownByLocator, comp::amended::InitialResets, comp::amended::InitialArms,
+    comp::amended::IgnoresLateInitial, comp::amended::AsksOnce,
+    comp::amended::AsksAtOnceBeforeCreation, comp::amended::AsksByAge, comp::amended::AgePeriod,
+    comp::amended::StopsWhenComplete, comp::amended::ReopensAcknowledged,
     comp::amended::ResendsAcknowledged, comp::amended::OnlyInUWaits, comp::amended::MeasuresAcks,
     comp::amended::ShortestMeasured, comp::amended::LongestMeasured,
     comp::amended::SuppressionEndArms, comp::amended::HeartbeatBeforeRepair,
@@ -73,6 +75,7 @@ std::map<std::string_view, EventKind> event_kinds() {
   comp::for_each_type(comp::server::FastDdsServer::Timers{}, add);
   comp::for_each_type(comp::amended::Amended::Timers{}, add);
   comp::for_each_type(comp::fastdds::FastDdsLiving::Timers{}, add);
+  comp::for_each_type(comp::cyclone::CycloneLiving::Timers{}, add);
   return all;
 }
 

@@ -78,6 +78,7 @@ struct RunState {
   Nanoseconds now;
   Counts counts;
   std::uint64_t user_control = 0;  ///< messages of control-only relations
+  std::uint64_t forgotten = 0;     ///< how often a lease ended
   std::uint64_t missing;           ///< required deliveries that have not happened
   std::uint64_t useful_deliveries = 0;
   std::uint64_t duplicate_deliveries = 0;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "fsm/composition/amended_parts.hpp"
-#include "fsm/composition/cyclone.hpp"
+#include "fsm/composition/cyclone_life.hpp"
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/life.hpp"
 #include "fsm/composition/paper.hpp"
@@ -38,6 +38,8 @@ struct TimerKinds : KindOf<comp::Announcement, EventKind::announcement_due>,
                     KindOf<comp::cyclone::SpdpTime, EventKind::spdp_time>,
                     KindOf<comp::cyclone::ReplyTime, EventKind::reply_time>,
                     KindOf<comp::cyclone::ThreadRun, EventKind::thread_run>,
+                    KindOf<comp::cyclone::LivelinessTime, EventKind::liveliness_time>,
+                    KindOf<comp::cyclone::AddressTime, EventKind::address_time>,
                     KindOf<comp::server::ClientAnnouncement, EventKind::client_announcement>,
                     KindOf<comp::server::ClientSync, EventKind::client_sync>,
                     KindOf<comp::server::RegistrationExpiryDue, EventKind::registration_expiry>,

@@ -35,11 +35,18 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
     if (i == server) {
       descriptor_count_.insert(descriptor_count_.end(), {0, 0});
       start_.push_back({});
+      late_publications_.push_back(0);
       continue;
     }
+    // Those that create endpoints over time have late ones besides.
+    const bool all_at_once = same_host == SameHostPairs::left_out;
     const auto late = [&](Stream s) {
-      return deployment.life ? late_descriptors(*deployment.life, i, s) : 0;
+      return deployment.life && all_at_once ? late_descriptors(*deployment.life, i, s) : 0;
     };
+    late_publications_.push_back(0);
+    for (const LateEndpoints& one : deployment.life.value_or(Life{}).endpoints) {
+      if (one.participant == i && !all_at_once) late_publications_.back() += one.publications;
+    }
     descriptor_count_.push_back(descriptors.default_publications + participants[i].publications +
                                 late(Stream::pub));
     descriptor_count_.push_back(descriptors.default_subscriptions + participants[i].subscriptions +

@@ -58,6 +58,10 @@ class Topology {
   [[nodiscard]] std::uint32_t descriptor_count(std::uint32_t relation) const {
     return descriptor_count_[2 * pairs_[relation / 2].source + relation % 2];
   }
+  /// How many publications i creates late in a run, if it creates endpoints over time.
+  [[nodiscard]] std::uint32_t late_publications(std::uint32_t i) const {
+    return late_publications_[i];
+  }
   [[nodiscard]] Nanoseconds start(std::uint32_t i) const { return start_[i]; }
 
   /// F: required descriptor deliveries, summed over all cross-host relations (paper, "Structural
@@ -72,6 +76,7 @@ class Topology {
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> first_pair_;
   std::vector<std::uint32_t> descriptor_count_;
+  std::vector<std::uint32_t> late_publications_;
   std::vector<Nanoseconds> start_;
   std::uint64_t required_deliveries_ = 0;
 };

@@ -143,7 +143,8 @@ void LivingProtocol::received(const Packet& packet, std::uint32_t receiver) {
   const std::uint32_t sender = ends == nullptr      ? packet.pair
                                : packet.to_writer() ? ends->destination
                                                     : ends->source;
-  if (hears(life_, sender, receiver, packet.emitted, run_.now)) take_in(*this, packet, receiver);
+  if (hears(run_.scenario.deployment, sender, receiver, packet.emitted, run_.now))
+    take_in(*this, packet, receiver);
 }
 
 }  // namespace stormproof::model::fastdds

@@ -113,7 +113,7 @@ void AmendedProtocol::handle(const Event& event) {
 
 void AmendedProtocol::received(const Packet& packet, std::uint32_t) {
   take_in(*this, packet, [&](std::uint32_t i, std::uint32_t j) {
-    return has_started(j) && hears(life_, i, j, packet.emitted, run_.now);
+    return has_started(j) && hears(run_.scenario.deployment, i, j, packet.emitted, run_.now);
   });
 }
 

@@ -11,7 +11,7 @@ EffectNames::EffectNames(const DdsProfile& dds)
     : ids_{fsm::composition::effect_ids(composition_of(dds))} {
   // With a life its rules are those of another composition, which shares most of them.
   if (traits_of(dds).has_living_composition) {
-    ids_.merge(fsm::composition::effect_ids(fsm::composition::compositions().back()));
+    ids_.merge(fsm::composition::effect_ids(living_composition_of(dds)));
   }
   if (!traits_of(dds).has_server) return;
   // Descriptors on their way to the server go by the rules of Fast DDS.

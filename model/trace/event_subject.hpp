@@ -36,6 +36,8 @@ enum class Subject : std::uint8_t {
     case EventKind::participant_start:
     case EventKind::spdp_time:
     case EventKind::thread_run:
+    case EventKind::liveliness_time:
+    case EventKind::address_time:
     case EventKind::relay_expiry:
     case EventKind::relay_response:
     case EventKind::server_routine:

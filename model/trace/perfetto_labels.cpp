@@ -153,6 +153,10 @@ const char* timer_label(EventKind kind) {
       return "HEARTBEAT timer";
     case EventKind::ack_time:
       return "ACK timer";
+    case EventKind::liveliness_time:
+      return "liveliness timer";
+    case EventKind::address_time:
+      return "address timer";
     case EventKind::thread_run:
       return "event thread";
     case EventKind::client_announcement:

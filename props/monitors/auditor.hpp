@@ -132,7 +132,9 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
     const Number receiver = packet.to_writer() ? ends.source : ends.destination;
     const Number sender = packet.to_writer() ? ends.destination : ends.source;
     if (!this->has_started(receiver)) return;
-    if (has_life_ && !hears(life_, sender, receiver, packet.emitted, this->run_.now)) return;
+    if (has_life_ &&
+        !hears(this->run_.scenario.deployment, sender, receiver, packet.emitted, this->run_.now))
+      return;
     if constexpr (std::is_same_v<P, lookup::LookupSample>) {
       this->take_samples(packet, [&]<class Part>(Part, const Packet& part) {
         run<comp::Received<Part>>(packet.detail, &part);

@@ -23,7 +23,8 @@ std::unique_ptr<Follower> auditor_of(model::Of<comp::amended::Amended>, model::R
 }  // namespace
 
 std::unique_ptr<Follower> make_auditor(model::RunState& run, Audit& audit) {
-  if (is_living_fastdds(run.scenario)) {
+  const bool has_thread = model::traits_of(run.scenario.dds).has_event_thread;
+  if (is_living(run.scenario) && !has_thread) {
     return std::make_unique<Auditor<comp::fastdds::FastDdsLiving>>(run, audit);
   }
   return model::visit_composition(

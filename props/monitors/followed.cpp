@@ -34,7 +34,7 @@ class FollowedRun : public Observer {
       model::trace::Selection{}.only_if(model::Report::scheduled, is_of_rules);
 
   FollowedRun(const model::Scenario& scenario, AuditorMaker make)
-      : Observer{"composition.followed"}, scenario_{with_successors(scenario)}, make_{make} {}
+      : Observer{"composition.followed"}, scenario_{as_run(scenario)}, make_{make} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -118,10 +118,6 @@ class FollowedRun : public Observer {
   /// What starts the next rule.
   enum class Trigger : std::uint8_t { nothing, start, due, received, left_source };
 
-  static model::Scenario with_successors(model::Scenario scenario) {
-    scenario.deployment = model::with_successors(scenario.deployment);
-    return scenario;
-  }
   /// The packet may be gone before its rule is followed.
   void take(const model::Packet& packet) {
     packet_.become(packet);

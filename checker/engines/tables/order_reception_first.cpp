@@ -47,6 +47,8 @@ Role role_of(EventKind kind) {
     case EventKind::heartbeat_time:
     case EventKind::ack_time:
     case EventKind::thread_run:
+    case EventKind::liveliness_time:
+    case EventKind::address_time:
     case EventKind::client_announcement:
     case EventKind::client_sync:
     case EventKind::registration_expiry:

@@ -55,8 +55,8 @@ inline constexpr std::array<std::string_view, 4> enum_names<Piggyback>{"cumulati
                                                                        "off", "group"};
 
 template <>
-inline constexpr std::array<std::string_view, 3> enum_names<AllowMulticast>{"true", "spdp",
-                                                                            "default"};
+inline constexpr std::array<std::string_view, 4> enum_names<AllowMulticast>{"true", "spdp",
+                                                                            "default", "false"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MergeQueued>{"false", "true"};
 
@@ -133,6 +133,17 @@ constexpr void visit_knobs(auto& visit, Is<SpdpProfile> auto& spdp,
              of_cyclone(implementation));
   visit.knob("directed_reply_interval", spdp.directed_reply_interval, period_range,
              "between two of these announcements", of_cyclone(implementation));
+  const Presence pruning =
+      of_cyclone(implementation) == Presence::required ? Presence::optional : Presence::of_others;
+  visit.knob("initial_prune_delay", spdp.initial_prune_delay, period_range,
+             "how long peers at which nobody is known are announced to after the start; for ever "
+             "if absent, as by versions before 11",
+             pruning);
+  visit.knob(
+      "discovered_prune_delay", spdp.discovered_prune_delay, period_range,
+      "how long participants that were forgotten are announced to; for ever if absent, as by "
+      "versions before 11",
+      pruning);
   visit.knob("lease", spdp.lease, period_range,
              "how long others remember a participant of which they hear nothing; it acts where "
              "somebody leaves or the network fails (deployment.life)",
@@ -472,8 +483,13 @@ constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
   visit_knobs(visit, dds.version, dds.implementation);
   visit.knob("allow_multicast", dds.allow_multicast, ChoiceType<AllowMulticast>{},
              "what goes to the multicast group: all that has several receivers, announcements, or, "
-             "by default, the first on a wired network and the second on Wi-Fi",
+             "by default, the first on a wired network and the second on Wi-Fi; or nothing",
              of_cyclone(dds.implementation));
+  visit.knob("peers", dds.peers, usually(count_range(0, 1'000), 0),
+             "ports of each host that announcements go to (MaxAutoParticipantIndex); none, but for "
+             "those of participants that are known, if 0 or absent",
+             of_cyclone(dds.implementation) == Presence::required ? Presence::optional
+                                                                  : Presence::of_others);
   visit.section("spdp", dds.spdp, "participant announcements", Presence::required,
                 dds.implementation);
   visit.section("sedp", dds.sedp, "reliable exchange of endpoint descriptors", Presence::required,

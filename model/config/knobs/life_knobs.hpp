@@ -27,9 +27,17 @@ void visit_knobs(auto& visit, Is<Mute> auto& mute) {
   visit.knob("participant", mute.participant, participant_number, "who falls silent");
   visit.knob("from", mute.from, delay_range, "from when on");
 }
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<Reach>{"participant", "host", "all"};
 void visit_knobs(auto& visit, Is<Outage> auto& outage) {
   visit.knob("from", outage.from, participant_number, "whose packets are not received");
   visit.knob("to", outage.to, participant_number, "by whom");
+  visit.knob("from_reach", outage.from_reach, UsualChoiceType<Reach>{{}, Reach::participant},
+             "whether the first number is a participant's, as it is if absent, or a host's, or all "
+             "others are meant, whatever the number",
+             Presence::optional);
+  visit.knob("to_reach", outage.to_reach, UsualChoiceType<Reach>{{}, Reach::participant},
+             "the same of the second", Presence::optional);
   visit.knob("start", outage.start, delay_range, "the first instant");
   visit.knob("end", outage.end, delay_range, "the first instant after it");
   visit.rule(outage.start <= outage.end, "end", "not before its start");
@@ -37,13 +45,17 @@ void visit_knobs(auto& visit, Is<Outage> auto& outage) {
 
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Identity>{"same", "new"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Goodbye>{"false", "true"};
 void visit_knobs(auto& visit, Is<Restart> auto& restart) {
   visit.knob("participant", restart.participant, participant_number, "who");
-  visit.knob("stop", restart.stop, delay_range, "when it stops, without goodbye");
+  visit.knob("stop", restart.stop, delay_range, "when it stops");
   visit.knob("start", restart.start, delay_range, "when it is there again, knowing nothing");
   visit.knob("identity", restart.identity, UsualChoiceType<Identity>{{}, Identity::same},
              "whether it comes back under its name, as it does if absent, or as somebody new",
              Presence::optional);
+  visit.knob("goodbye", restart.goodbye, UsualChoiceType<Goodbye>{{}, Goodbye::no},
+             "whether it says that it stops; no if absent", Presence::optional);
   visit.rule(restart.stop < restart.start, "start", "later than its stop");
 }
 void visit_knobs(auto& visit, Is<Lease> auto& lease) {
@@ -59,6 +71,21 @@ void visit_knobs(auto& visit, Is<LateEndpoints> auto& late) {
   visit.knob("until", late.until, delay_range, "when it deletes them; never if absent",
              Presence::optional);
   visit.rule(!late.until || late.at < *late.until, "until", "later than their creation");
+}
+
+void visit_knobs(auto& visit, Is<Deletion> auto& deletion) {
+  visit.knob("participant", deletion.participant, participant_number, "who");
+  visit.knob("publication", deletion.publication, endpoint_count,
+             "which of the user publications that it has from the beginning", Presence::optional);
+  visit.knob("subscription", deletion.subscription, endpoint_count,
+             "or which of its user subscriptions", Presence::optional);
+  visit.knob("at", deletion.at, delay_range, "when it deletes it");
+  visit.rule(deletion.publication.has_value() != deletion.subscription.has_value(), "publication",
+             "a publication or a subscription");
+}
+void visit_knobs(auto& visit, Is<Leave> auto& leave) {
+  visit.knob("participant", leave.participant, participant_number, "who");
+  visit.knob("at", leave.at, delay_range, "when it deletes all that it has and says that it goes");
 }
 
 void visit_knobs(auto& visit, Is<Life> auto& life) {
@@ -82,6 +109,11 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
   visit.list("endpoints", life.endpoints, any,
              "user endpoints that participants create in the run, and may delete again",
              Presence::optional);
+  visit.list("deletions", life.deletions, any,
+             "user endpoints that participants have from the beginning and delete in the run",
+             Presence::optional);
+  visit.list("leaves", life.leaves, each_participant,
+             "participants that say that they go, and do not come back", Presence::optional);
 }
 
 /// Whether both are participants of different hosts.
@@ -100,7 +132,7 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
 [[nodiscard]] inline std::string needed_for_lives(const Scenario& scenario) {
   if (!traits_of(scenario.dds).knows_lives) {
     return "or a DDS profile whose rules know it: one with amendments, or implementation: fastdds "
-           "with discovery: simple";
+           "with discovery: simple, or implementation: cyclone";
   }
   std::string needed;
   if (scenario.wireless.sender != Sender::backlog) {
@@ -115,6 +147,56 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
   }
   return needed;
 }
+/// What only those know that say goodbye, and what they do not know.
+void visit_goodbyes(auto& visit, const Scenario& scenario, bool says_goodbye) {
+  const Deployment& deployment = scenario.deployment;
+  const Life& life = *deployment.life;
+  const auto is_silent = [](const Restart& r) { return r.goodbye == Goodbye::no; };
+  const auto is_new = [](const Restart& r) { return r.identity == Identity::fresh; };
+  visit.rule(says_goodbye || (life.deletions.empty() && life.leaves.empty() &&
+                              std::ranges::all_of(life.restarts, is_silent)),
+             "deployment.life",
+             "no deletions, leaves or restarts with a goodbye, or implementation: cyclone, whose "
+             "rules know them");
+  visit.rule(!says_goodbye || std::ranges::all_of(life.restarts, is_new),
+             "deployment.life.restarts",
+             "identity: new; Cyclone DDS has no way to come back under the same name");
+  visit.rule(!says_goodbye || life.stale.empty(), "deployment.life.stale",
+             "nothing; rules of Cyclone DDS begin with participants that know nobody");
+  const auto is_done = [&](std::uint32_t i, Nanoseconds at) {
+    return i < deployment.size() && at >= deployment.participants[i].endpoints_done &&
+           !is_away(life, i, at);
+  };
+  visit.rule(std::ranges::all_of(life.deletions,
+                                 [&](const Deletion& deletion) {
+                                   const std::uint32_t i = deletion.participant;
+                                   if (!is_done(i, deletion.at)) return false;
+                                   const Participant& p = deployment.participants[i];
+                                   return deletion.publication
+                                              ? *deletion.publication < p.publications
+                                              : deletion.subscription.value_or(0) < p.subscriptions;
+                                 }),
+             "deployment.life.deletions",
+             "user endpoints of participants of the deployment, when all endpoints are created");
+  visit.rule(
+      std::ranges::all_of(life.leaves,
+                          [&](const Leave& leave) { return is_done(leave.participant, leave.at); }),
+      "deployment.life.leaves",
+      "participants of the deployment, when all their endpoints are created");
+  visit.rule(!says_goodbye || std::ranges::all_of(life.endpoints,
+                                                  [&](const LateEndpoints& late) {
+                                                    return is_done(late.participant, late.at);
+                                                  }),
+             "deployment.life.endpoints", "created when those from the beginning are");
+  visit.rule(!says_goodbye || std::ranges::all_of(life.restarts,
+                                                  [&](const Restart& restart) {
+                                                    return restart.goodbye == Goodbye::no ||
+                                                           is_done(restart.participant,
+                                                                   restart.stop);
+                                                  }),
+             "deployment.life.restarts", "with a goodbye only when all endpoints are created");
+}
+
 void visit_life(auto& visit, Is<Scenario> auto& scenario) {
   const Deployment& deployment = scenario.deployment;
   const bool may_fail = scenario.vary && (scenario.vary->outages || scenario.vary->restarts);
@@ -131,7 +213,9 @@ void visit_life(auto& visit, Is<Scenario> auto& scenario) {
     return is_cross_host(deployment, stale.writer, stale.reader);
   };
   const auto is_outage = [&](const Outage& outage) {
-    return is_cross_host(deployment, outage.from, outage.to);
+    const bool is_between_two =
+        outage.from_reach == Reach::participant && outage.to_reach == Reach::participant;
+    return !is_between_two || is_cross_host(deployment, outage.from, outage.to);
   };
   const auto is_mute = [&](const Mute& mute) { return mute.participant < deployment.size(); };
   visit.rule(std::ranges::all_of(life.stale, is_stale), "deployment.life.stale",
@@ -145,9 +229,12 @@ void visit_life(auto& visit, Is<Scenario> auto& scenario) {
              "participants of the deployment");
   visit.rule(std::ranges::all_of(life.leases, is_there), "deployment.life.leases",
              "participants of the deployment");
-  visit.rule(life.endpoints.empty() || scenario.dds.amendments.has_value(),
+  const bool says_goodbye = traits_of(scenario.dds).says_goodbye;
+  visit.rule(life.endpoints.empty() || scenario.dds.amendments.has_value() || says_goodbye,
              "deployment.life.endpoints",
-             "none, or a DDS profile with amendments, whose rules know them");
+             "none, or a DDS profile with amendments or implementation: cyclone, whose rules know "
+             "them");
+  visit_goodbyes(visit, scenario, says_goodbye);
   visit.rule(creates_while_there(deployment), "deployment.life.endpoints",
              "created and deleted by participants of the deployment, from their start on and not "
              "while they are away");
