@@ -47,7 +47,7 @@ void append_stream(std::string& out, const Packet& packet) {
 namespace {
 
 void append_submessage(std::string& out, const Submessage& m) {
-  constexpr const char* kinds[] = {"spdp", "data", "heartbeat", "acknack"};
+  constexpr const char* kinds[] = {"spdp", "data", "heartbeat", "acknack", "gap"};
   append(out, R"({"kind":")", kinds[static_cast<std::size_t>(m.kind)], R"(","participant":)",
          m.participant);
   if (m.kind != Submessage::Kind::spdp) {
@@ -55,6 +55,12 @@ void append_submessage(std::string& out, const Submessage& m) {
   }
   if (m.kind == Submessage::Kind::data) append(out, R"(,"descriptor":)", m.sample);
   if (m.kind == Submessage::Kind::heartbeat) append(out, R"(,"announces":)", m.sample);
+  if (m.first > 0) append(out, R"(,"gone":)", m.first);
+  if (m.goodbye) out += R"(,"goodbye":true)";
+  if (m.kind == Submessage::Kind::gap) {
+    out += R"(,"descriptors":)";
+    append_members(out, m.bitmap);
+  }
   if (m.kind == Submessage::Kind::acknack) {
     append(out, R"(,"base":)", m.sample);
     if (!m.bitmap.empty()) {

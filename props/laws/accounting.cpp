@@ -81,6 +81,8 @@ class MessageCounter final : public model::Probe {
       ++user_control_;
     } else if (submessage.kind == Kind::heartbeat) {
       ++counts_.heartbeat;
+    } else if (submessage.kind == Kind::gap) {
+      ++counts_.gap;
     } else if (submessage.kind == Kind::acknack) {
       ++counts_.acknack;
     } else {

@@ -137,7 +137,7 @@ class LivingAuditor final : public CycloneAuditorOf<LivingAuditor, cyclone::Cycl
     if (has_timers(actor, event.kind)) Below::due(event);
   }
   void received(const model::Packet& packet, Number receiver) override {
-    if (hears_packet(packet, receiver)) take_in(packet, receiver);
+    if (hears_packet(packet, receiver)) Steps::take_in(packet, receiver);
   }
 
   // The host of a RunningWorld.
@@ -156,7 +156,7 @@ class LivingAuditor final : public CycloneAuditorOf<LivingAuditor, cyclone::Cycl
     const model::HostId host = addresses().host_of(to);
     if (host == participants[i].host) return;
     const auto somebody = std::ranges::find(participants, host, &model::Participant::host);
-    Message message =
+    props::Message message =
         props::message_of(packet_of(i, static_cast<Number>(somebody - participants.begin())));
     message.to_nobody = true;
     expect_from(i, std::move(message));

@@ -189,6 +189,7 @@ Message content_of(const model::Submessage& submessage) {
   switch (submessage.kind) {
     case Kind::spdp:
       content.kind = model::PacketKind::spdp_unicast;
+      content.initial = submessage.goodbye;
       break;
     case Kind::data:
       content.kind = model::PacketKind::data;
@@ -197,6 +198,11 @@ Message content_of(const model::Submessage& submessage) {
     case Kind::heartbeat:
       content.kind = model::PacketKind::heartbeat;
       content.detail = submessage.sample;
+      for (std::uint32_t d = 0; d < submessage.first; ++d) content.descriptors.add(d);
+      break;
+    case Kind::gap:
+      content.kind = model::PacketKind::heartbeat;
+      content.descriptors = Descriptors{submessage.bitmap};
       break;
     case Kind::acknack:
       content.kind = model::PacketKind::acknack;

@@ -54,6 +54,7 @@ void count(World& w, const Packet& packet, const Message& m) {
 void emit(World& w, Packet packet) {
   charge_sending(w, packet);
   packet.id = w.packets.size();
+  packet.emitted = w.now;
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
   const bool on_channel = !receivers(w, packet, false).empty();
   const std::uint64_t number = w.outcome.packets;

@@ -52,7 +52,8 @@ void announce(World& w, Id i) {
   m.to.set = true;
   m.to.addresses = {group};
   const bool copies = !w.multicast && !w.makes(Mistake::announces_to_group_only);
-  for (const Id j : w.participants.at(i).known) {
+  const std::set<Id>& all = w.lives ? w.ever_known[i] : w.participants.at(i).known;
+  for (const Id j : all) {
     if (copies) m.to.addresses.push_back(j);
   }
   enqueue(w, i, m);
@@ -61,24 +62,30 @@ void announce(World& w, Id i) {
 void start(World& w, Id i) {
   announce(w, i);
   move(w, w.participants.at(i).announcement, w.now + w.spdp.startup_period.count());
+  if (!w.lives) return;
+  Timer liveliness_timer;
+  liveliness_timer.kind = TimerKind::liveliness;
+  liveliness_timer.owner = i;
+  move(w, new_timer(w, liveliness_timer), w.now + liveliness_period(w, i));
 }
 
 std::optional<Message> fire_announcement(World& w, const Timer& timer, std::size_t number) {
   const Id i = timer.owner;
   announce(w, i);
-  move(w, number, w.now + w.spdp.period.count());
+  move(w, number, w.now + announcement_period(w, i));
   return {};
 }
 
 std::optional<Message> fire_reply(World& w, std::size_t number) {
   Timer& timer = w.timers.at(number);
+  if (timer.given_up) return {};
   const Id j = timer.owner;
   Message m = announcement(w, j);
   m.to = only(timer.peer);
   m.directed = true;
   enqueue(w, j, m);
   ++w.timers.at(number).sent;
-  const int most = static_cast<int>(w.spdp.directed_replies);
+  const int most = replies_due(w, j);
   if (w.timers.at(number).sent < most) {
     move(w, number, w.now + w.spdp.directed_reply_interval.count());
   }
@@ -88,6 +95,8 @@ std::optional<Message> fire_reply(World& w, std::size_t number) {
 void receive_spdp(World& w, Id j, const Message& m) {
   const Id i = m.owner;
   if (!w.participants.at(j).known.insert(i).second) return;
+  w.ever_known[j].insert(i);
+  begin_lease(w, j, i);
   for (int c = 0; c < builtins; ++c) {
     if (w.makes(Mistake::reader_opens_first)) open_reader(w, i, c, j);
     open_writer(w, j, c, i);
@@ -131,7 +140,7 @@ void receive_data(World& w, Id j, const Message& m) {
   if (!w.makes(Mistake::data_announces_nothing)) r.last = std::max(r.last, m.sample);
   const bool fresh = r.received.insert(m.sample).second;
   if (m.writer > subscriptions) return;
-  if (fresh && cross_host(w, m.owner, j) && --w.missing == 0) complete(w);
+  if (!w.lives && fresh && cross_host(w, m.owner, j) && --w.missing == 0) complete(w);
   if (w.ended) return;
   while (r.received.contains(r.notified + 1)) {
     ++r.notified;

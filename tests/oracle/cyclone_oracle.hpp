@@ -13,10 +13,13 @@ namespace stormproof::oracle {
 /// The counts and the missing descriptors are those of cross-host pairs.
 struct CycloneOutcome : Outcome {
   std::int64_t user_control = 0;
+  std::int64_t forgotten = 0;  ///< how often a lease ended
 };
 
 /// Runs the scenario as `run` does. Takes the profile for one of `implementation: cyclone`,
 /// whatever it says.
+/// With a life, of which it knows leases, outages, deaths and successors, everything is counted until
+/// discovery was complete for the last time, and the run goes on until the time limit.
 /// Throws std::invalid_argument if the deployment has no cross-host pair, or a participant is done
 /// or ready before it starts, or starts before it opens.
 [[nodiscard]] CycloneOutcome run_cyclone(const model::Scenario& scenario, const EventLog& log = {},

@@ -75,7 +75,12 @@ Message preemptive(World& w, Reader& r, Id i, int writer) {
   m.base = 1;
   m.bytes = 28;
   r.t_ack = w.now;
-  if (!w.makes(Mistake::asks_once)) move(w, r.timer, w.now + preemptive_interval);
+  Time again = preemptive_interval;
+  const Time age = w.now - r.opened;
+  if (w.lives && age >= 10 * preemptive_interval) {
+    again *= age < 60 * preemptive_interval ? 2 : age < 120 * preemptive_interval ? 5 : 10;
+  }
+  if (!w.makes(Mistake::asks_once)) move(w, r.timer, w.now + again);
   return m;
 }
 
@@ -85,6 +90,7 @@ void open_reader(World& w, Id i, int writer, Id j) {
   Reader& r = w.readers.at({i, writer, j});
   if (r.open) return;
   r.open = true;
+  r.opened = w.now;
   move(w, r.timer, w.now + w.sedp.preemptive_ack_delay.count());
 }
 
@@ -92,6 +98,7 @@ void receive_heartbeat(World& w, Id j, const Message& m) {
   Reader& r = w.readers.at({m.owner, m.writer, j});
   if (!r.open) return;
   r.seen = true;
+  for (Sample k = 1; k < m.first; ++k) r.received.insert(k);
   r.last = std::max(r.last, m.sample);
   const bool old = m.count <= r.last_count && w.now < r.accepted + half_second;
   if (old && !w.makes(Mistake::old_heartbeats_count)) return;

@@ -1,5 +1,6 @@
 // The main loop of the oracle of `implementation: cyclone`: the next event is the least of (time,
 // class, insertion number). Also what is scheduled before the run, and how a packet is received.
+#include "model/life.hpp"
 #include "tests/oracle/cyclone_world.hpp"
 
 namespace stormproof::oracle::cyclone {
@@ -20,6 +21,10 @@ const char* name_of(EventKind kind) {
       return "timer";
     case EventKind::run:
       return "run of the event thread";
+    case EventKind::lease:
+      return "lease check";
+    case EventKind::death:
+      return "death";
     case EventKind::dispatch:
       return "dispatch";
     case EventKind::thread_free:
@@ -37,7 +42,9 @@ void receive(World& w, const Event& e) {
     return;
   }
   const Packet packet = w.packets.at(e.packet);
+  if (!reaches(w, packet, e.who)) return;
   charge_reception(w, packet);
+  hear(w, e.who, packet.source);
   for (const Message& m : packet.messages) {
     switch (m.kind) {
       case MessageKind::spdp:
@@ -59,6 +66,10 @@ void receive(World& w, const Event& e) {
 }
 
 void process(World& w, const Event& e) {
+  const bool acts = e.kind == EventKind::start || e.kind == EventKind::creation ||
+                    e.kind == EventKind::timer || e.kind == EventKind::run ||
+                    e.kind == EventKind::lease;
+  if (acts && is_dead(w, e.who, w.now)) return;
   switch (e.kind) {
     case EventKind::service_finished:
       return service_finished(w, e);
@@ -72,6 +83,10 @@ void process(World& w, const Event& e) {
       return timer_event(w, e.timer);
     case EventKind::run:
       return run_thread(w, e.who);
+    case EventKind::lease:
+      return lease_event(w, e.peer, e.who);
+    case EventKind::death:
+      return;  // whoever asks knows it by the time
     case EventKind::dispatch:
       return dispatch(w, e.channel);
     case EventKind::thread_free:
@@ -96,6 +111,15 @@ void schedule_beginning(World& w) {
       event.sample = sample;
       ++k;
       schedule(w, start + (done - start) * k / number, EventClass::protocol, event);
+    }
+    if (!w.lives) continue;
+    event.kind = EventKind::death;
+    for (const model::Mute& mute : w.scenario.deployment.life->mute) {
+      if (mute.participant == i) schedule(w, mute.from.count(), EventClass::protocol, event);
+    }
+    for (const model::Restart& restart : w.scenario.deployment.life->restarts) {
+      if (restart.participant != i) continue;
+      schedule(w, restart.stop.count(), EventClass::protocol, event);
     }
   }
 }
@@ -145,6 +169,13 @@ CycloneOutcome run(const model::Scenario& scenario, const EventLog& log, Mistake
     if (log) log(log_entry(key, event));
     process(w, event);
     if (actor) finish(w, *actor);
+    if (w.lives) note_completeness(w);
+  }
+  if (w.lives && w.outcome.completed) {
+    const std::uint64_t events = w.outcome.events;
+    w.outcome = w.until_discovery;
+    w.outcome.completed = true;
+    w.outcome.events = events;
   }
   w.outcome.missing = missing_descriptors(w);
   return w.outcome;
@@ -158,7 +189,10 @@ namespace stormproof::oracle {
 
 CycloneOutcome run_cyclone(const model::Scenario& scenario, const EventLog& log,
                            CycloneMistake mistake, std::uint64_t max_events) {
-  return cyclone::run(scenario, log, mistake, max_events);
+  if (!scenario.deployment.life) return cyclone::run(scenario, log, mistake, max_events);
+  model::Scenario living = scenario;
+  living.deployment = model::with_successors(scenario.deployment);
+  return cyclone::run(living, log, mistake, max_events);
 }
 
 }  // namespace stormproof::oracle

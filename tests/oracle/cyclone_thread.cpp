@@ -81,6 +81,7 @@ std::optional<Message> fire(World& w, std::size_t number) {
   Timer& timer = w.timers.at(number);
   timer.listed = false;
   timer.due = never;
+  if (timer.kind == TimerKind::liveliness) say_liveliness(w, timer.owner, number);
   switch (timer.kind) {
     case TimerKind::announcement:
       return fire_announcement(w, timer, number);
@@ -88,6 +89,8 @@ std::optional<Message> fire(World& w, std::size_t number) {
       return fire_reply(w, number);
     case TimerKind::heartbeat:
       return fire_heartbeat(w, timer.owner, timer.writer);
+    case TimerKind::liveliness:
+      return {};
     case TimerKind::acknack:
       return fire_acknack(w, timer.peer, timer.writer, timer.owner);
   }
@@ -96,6 +99,11 @@ std::optional<Message> fire(World& w, std::size_t number) {
 
 // Whether there was something to do; it may have given a message.
 bool next_task(World& w, Participant& p, std::optional<Message>& message) {
+  if (!p.given.empty()) {
+    message = p.given.front();
+    p.given.pop_front();
+    return true;
+  }
   const bool queue_first = w.makes(Mistake::queue_before_timers) && !p.queue.empty();
   if (!p.due.empty() && !queue_first) {
     const std::size_t timer = p.due.front();
@@ -112,6 +120,7 @@ bool next_task(World& w, Participant& p, std::optional<Message>& message) {
 void pack(World& w, Participant& p, const Message& message) {
   if (p.open_packet.empty() || fits(w, p.open_packet, message)) {
     p.open_packet.push_back(message);
+    if (message.completes) begin_to_send(w, p);
     return;
   }
   p.held = message;
@@ -163,8 +172,13 @@ void run_thread(World& w, Id i) {
       break;
     }
     if (p.held) {
+      const bool completes = p.held->completes;
       p.open_packet.push_back(*p.held);
       p.held.reset();
+      if (completes) {
+        begin_to_send(w, p);
+        continue;
+      }
     }
     std::optional<Message> message;
     if (next_task(w, p, message)) {

@@ -65,7 +65,8 @@ World::World(const model::Scenario& s, Mistake m)
       spdp{s.dds.spdp},
       sedp{s.dds.sedp},
       multicast{s.dds.allow_multicast == model::AllowMulticast::always},
-      mistake{m} {
+      mistake{m},
+      lives{s.deployment.life.has_value()} {
   for (const model::Participant& p : s.deployment.participants) add_participant(*this, p);
   const Id n = s.deployment.size();
   for (Id i = 0; i < n; ++i) add_writers(*this, i);

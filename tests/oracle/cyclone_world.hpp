@@ -39,6 +39,8 @@ enum class EventKind {
   creation,
   timer,
   run,
+  lease,
+  death,
   dispatch,
   thread_free  // with processors
 };
@@ -46,6 +48,7 @@ enum class EventKind {
 struct Event {
   EventKind kind = EventKind::dispatch;
   Id who = 0;                // who acts, or receives
+  Id peer = 0;               // of a lease: whose
   int stream = 0;            // of a creation
   Sample sample = 0;         // of a creation
   std::size_t timer = 0;     // position in the world's list
@@ -55,7 +58,7 @@ struct Event {
   std::string channel;
 };
 
-enum class TimerKind { announcement, reply, heartbeat, acknack };
+enum class TimerKind { announcement, reply, heartbeat, acknack, liveliness };
 
 struct Timer {
   TimerKind kind = TimerKind::announcement;
@@ -64,7 +67,8 @@ struct Timer {
   int writer = 0;
   Time due = never;
   bool listed = false;
-  int sent = 0;  // of a reply
+  int sent = 0;           // of a reply
+  bool given_up = false;  // of a reply: who it is for has been forgotten
 };
 
 constexpr Id group = UINT32_MAX;  // as an address: the multicast group
@@ -90,6 +94,8 @@ struct Message {
   Sample sample = 0;            // DATA: its number; HEARTBEAT: what it announces
   std::int64_t count = 0;       // HEARTBEAT, ACKNACK
   Sample base = 0;              // ACKNACK
+  Sample first = 1;             // HEARTBEAT: the lowest that exists
+  bool completes = false;       // the packet that it joins is sent at once
   std::set<Sample> bitmap;      // ACKNACK
 };
 
@@ -100,6 +106,7 @@ struct Packet {
   std::vector<Message> messages;
   std::uint64_t id = 0;  // from here on: filled in by emit
   bool lost = false;
+  Time emitted = 0;
   std::vector<std::int64_t> fragments;
   std::map<std::size_t, std::size_t> served;
 };
@@ -113,6 +120,7 @@ struct Matched {
 
 struct Writer {
   Sample history = 0;
+  Sample first = 1;  // lower ones exist no more
   Sample sent = 0;
   std::int64_t count = 0;
   std::int64_t n = 0;
@@ -125,6 +133,7 @@ struct Writer {
 /// The reader side of (writer of i, reader j).
 struct Reader {
   bool open = false;
+  Time opened = 0;
   bool seen = false;
   bool since = false;
   bool wanted = false;
@@ -157,6 +166,7 @@ struct Participant {
   bool run_scheduled = false;
   bool running = false;
   std::deque<std::size_t> due;
+  std::deque<Message> given;  // by the timer that fires
   std::deque<Message> queue;
   std::vector<Message> open_packet;
   std::optional<Message> held;
@@ -197,6 +207,13 @@ struct World {
   std::optional<Message> kept;
   std::int64_t missing = 0;
   CycloneOutcome outcome;
+  // With a life: when who is forgotten by whom, whose checks are pending, and what had been sent
+  // when discovery was complete for the last time.
+  const bool lives;
+  std::map<std::pair<Id, Id>, Time> deadlines;
+  std::set<std::pair<Id, Id>> leases;
+  std::map<Id, std::set<Id>> ever_known;
+  CycloneOutcome until_discovery;
 };
 
 // cyclone_world.cpp
@@ -241,7 +258,21 @@ void receive_data(World& w, Id j, const Message& m);
 std::optional<Message> fire_announcement(World& w, const Timer& timer, std::size_t number);
 std::optional<Message> fire_reply(World& w, std::size_t number);
 
+// cyclone_life.cpp
+[[nodiscard]] Time lease_of(const World& w, Id i);
+[[nodiscard]] Time liveliness_period(const World& w, Id i);
+[[nodiscard]] Time announcement_period(const World& w, Id i);
+[[nodiscard]] int replies_due(const World& w, Id i);
+[[nodiscard]] bool is_dead(const World& w, Id i, Time at);
+[[nodiscard]] bool reaches(const World& w, const Packet& packet, Id j);
+void hear(World& w, Id j, Id i);
+void begin_lease(World& w, Id j, Id i);
+void lease_event(World& w, Id i, Id j);
+void say_liveliness(World& w, Id i, std::size_t timer);
+void note_completeness(World& w);
+
 // cyclone_writer.cpp
+[[nodiscard]] Message heartbeat_to(World& w, Id i, int writer, const Destination& to);
 void open_writer(World& w, Id i, int writer, Id j);
 [[nodiscard]] Destination readers_of(const World& w, Id i, int writer);
 [[nodiscard]] Destination only(Id j);

@@ -19,6 +19,7 @@ Message heartbeat(World& w, Id i, int writer, const Destination& to) {
   m.to = to;
   m.bytes = 32;
   m.sample = state.history;
+  m.first = state.first;
   m.count = ++state.count;
   return m;
 }
@@ -91,6 +92,10 @@ bool retransmit(World& w, Id i, int writer, Id j, Sample sample) {
 }
 
 }  // namespace
+
+Message heartbeat_to(World& w, Id i, int writer, const Destination& to) {
+  return heartbeat(w, i, writer, to);
+}
 
 Destination only(Id j) {
   Destination to;

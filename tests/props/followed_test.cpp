@@ -15,6 +15,7 @@
 #include "tests/oracle/sharp_scenario.hpp"
 #include "tests/props/monitored_run.hpp"
 #include "tests/props/run_digest.hpp"
+#include "tests/vectors/cyclone_life_vectors.hpp"
 
 namespace stormproof::props {
 namespace followed_test {
@@ -71,6 +72,35 @@ TEST(Followed, RunsWithStaticPeersAreWhatTheRulesSay) {
     if (reason.find("a port that nobody has") != std::string::npos) ++ports_of_nobody;
   }
   EXPECT_GT(ports_of_nobody, 50);
+}
+
+/// Outages, a successor, endpoints that are created late and deleted, goodbyes, and peers.
+TEST(Followed, LivesUnderCycloneDdsAreWhatTheRulesSay) {
+  constexpr std::int64_t ms = 1'000'000;
+  for (std::uint64_t seed = 0; seed < 48; ++seed) {
+    Scenario scenario = vectors::two_lives(seed % 2 == 0 ? model::AllowMulticast::always
+                                                         : model::AllowMulticast::spdp);
+    if (seed % 3 == 2) scenario = vectors::pruning(vectors::two_peers(3));
+    model::Life& life = *scenario.deployment.life;
+    const auto at = [&](std::int64_t after) {
+      return model::Nanoseconds{(12'000 + 100 * static_cast<std::int64_t>(seed) + after) * ms};
+    };
+    if (seed % 4 != 0) {
+      life.outages.push_back(
+          {0, 0, at(0), at(seed % 4 == 1 ? 3'000 : 13'000), model::Reach::all, model::Reach::host});
+    }
+    if (seed % 5 == 1) life.mute.push_back({1, at(500)});
+    if (seed % 5 == 2) {
+      const auto goodbye = seed % 2 == 0 ? model::Goodbye::yes : model::Goodbye::no;
+      life.restarts.push_back({1, at(500), at(2'500), model::Identity::fresh, goodbye});
+    }
+    if (seed % 5 == 3) life.leaves.push_back({0, at(700)});
+    if (seed % 7 < 3) life.endpoints.push_back({0, 1, 1, at(100), at(300)});
+    if (seed % 7 == 4) life.deletions.push_back({.participant = 0, .subscription = 1, .at = at(0)});
+    const auto monitor = follow(scenario);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ": " << monitor->violation()->reason;
+  }
 }
 
 /// Clients or super clients of a server.

@@ -148,6 +148,7 @@ std::optional<MessageClass> MessageTally::add_submessage(const model::Submessage
     if (m.kind != Kind::data) ++tally_[index_of(Figure::user_control)];
     return std::nullopt;
   }
+  if (m.kind == Kind::gap) return std::nullopt;
   if (m.kind == Kind::heartbeat) return MessageClass::heartbeat;
   if (m.kind == Kind::data) return add_sample(m, packet);
   const std::uint32_t from_writer = topology_->pair(packet.pair).reverse;

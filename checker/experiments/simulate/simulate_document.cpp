@@ -52,8 +52,15 @@ std::string recovery_text(const Simulation& s) {
   if (s.result.recovery_time->count() == 0) {
     return fmt::format("Nothing fails after {}, when nobody lacks anything. ", last);
   }
-  return fmt::format("The last failure is over at {}, and recovery from it takes {}. ", last,
-                     duration(*s.result.recovery_time));
+  std::string text = fmt::format("The last failure is over at {}, and recovery from it takes {}. ",
+                                 last, duration(*s.result.recovery_time));
+  if (s.result.until_discovery && model::traits_of(s.scenario.dds).says_goodbye) {
+    const model::SentUntil& sent = *s.result.until_discovery;
+    text += fmt::format("Until then {} messages are sent from that failure on, {} in all; ",
+                        grouped(sent.since_last_failure), grouped(sent.messages()));
+    text += fmt::format("{} times somebody's lease ended at somebody else. ", sent.forgotten);
+  }
+  return text;
 }
 
 /// If the run goes on after discovery, that it does; then the open loop.

@@ -61,6 +61,8 @@ std::int64_t CycloneMessages::bytes_of(const Submessage& m) const {
       return cyclone::data_bytes(m.writer, m.sample);
     case Submessage::Kind::heartbeat:
       return cyclone::heartbeat_bytes;
+    case Submessage::Kind::gap:
+      return cyclone::gap_bytes;
     case Submessage::Kind::acknack:
       break;
   }
@@ -112,6 +114,11 @@ void CycloneMessages::add(MessageWriter& out, const Submessage& m, std::uint32_t
   if (m.kind == Submessage::Kind::heartbeat) {
     out.heartbeat(is_directed ? ends.reader : 0, ends.writer, m.sample, count);
     return;
+  }
+  if (m.kind == Submessage::Kind::gap) {
+    std::vector<std::int64_t> numbers;
+    m.bitmap.for_each([&](std::uint32_t d) { numbers.push_back(std::int64_t{d} + 1); });
+    return out.gap(ends.reader, ends.writer, numbers);
   }
   SequenceNumberSet missing = missing_in(m);
   if (more_words > 0) {
