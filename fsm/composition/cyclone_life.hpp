@@ -10,6 +10,14 @@
 
 namespace stormproof::fsm::composition::cyclone {
 
+struct LivingThreadRuns : Rule<Due<ThreadRun>> {
+  template <class W>
+  static void run(W& w) {
+    const auto thread = w.feed(Thread{}, on<event_thread::RunDue>);
+    w.when(thread.work, [&] { w.perform(LivingWork{}); });
+  }
+};
+
 // Sides of relations that close, and participants that are forgotten. ----------------------------
 
 /// The reader side is a new one, and nothing is due for it.
@@ -346,7 +354,8 @@ struct CycloneLiving {
       TypeList<ReaderIsMatched, HeartbeatTimerIsTaken, DescriptorIsCreated, LivingAckNackArrives,
                PacketIsProcessed, LivingReaderIsOpened, LivingDataArrives, LivingHeartbeatArrives,
                LivingAckTimerIsTaken>,
-      ThreadRules,
+      TypeList<LivingThreadRuns, CopyIsSent, NothingIsLeft, HeartbeatTimeHasCome, AckTimeHasCome,
+               SpdpTimeHasCome, ReplyTimeHasCome>,
       TypeList<ReaderIsClosed, WriterIsClosed, PacketIsHeard, LeaseIsChecked, AddressTimeHasCome,
                AddressTimerIsTaken, LivelinessTimeHasCome, LivelinessTimerIsTaken, LivelinessIsSaid,
                GapArrives, EndpointIsDeleted, ParticipantLeaves>>;

@@ -88,6 +88,17 @@ struct FollowEndpoint : Opaque {
   }
 };
 
+/// The thread also fires the timers of liveliness and of addresses.
+struct LivingWork : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.when(w.choice("its liveliness timer is on the list"),
+           [&] { w.raise(LivelinessTimerFires{}); });
+    w.when(w.choice("its address timer is on the list"), [&] { w.raise(AddressTimerFires{}); });
+    w.perform(Work{});
+  }
+};
+
 // Addresses of announcements. What becomes of that of the pair's source at its destination:
 /// it is announced to,
 struct KeepAddress : Opaque {

@@ -230,7 +230,7 @@ class LivingSteps : public ThreadSteps<Host, true> {
     this->threads_[n / this->stride_].given.back().completes = true;
   }
   template <class World>
-  void perform(rules::Work, World& w) {
+  void perform(rules::LivingWork, World& w) {
     const auto i = w.template number<comp::owner::participant>();
     this->work(i);
     using Thread = fsm::Reflect<fsm::EventThread>;
