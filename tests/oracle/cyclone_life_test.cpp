@@ -89,8 +89,8 @@ model::Life random_life(props::Dice& dice, std::uint32_t participants) {
   }
   if (dice.chance(30)) life.lease = Nanoseconds{dice.among({6'000, 12'000}) * ms};
   if (dice.chance(40)) {
-    life.leases.push_back({dice.count(0, participants - 1),
-                           Nanoseconds{dice.among({5'000, 10'000, 14'000}) * ms}});
+    life.leases.push_back(
+        {dice.count(0, participants - 1), Nanoseconds{dice.among({5'000, 10'000, 14'000}) * ms}});
   }
   const std::uint32_t one = dice.count(0, participants - 1);
   const Nanoseconds stop{dice.among({700, 8'000, 11'000}) * ms + dice.between(0, ms)};

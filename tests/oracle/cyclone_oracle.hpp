@@ -18,7 +18,7 @@ struct CycloneOutcome : Outcome {
 
 /// Runs the scenario as `run` does. Takes the profile for one of `implementation: cyclone`,
 /// whatever it says.
-/// With a life, of which it knows leases, outages, deaths and successors, everything is counted until
+/// With a life, of which it knows leases, outages, deaths and successors, all is counted until
 /// discovery was complete for the last time, and the run goes on until the time limit.
 /// Throws std::invalid_argument if the deployment has no cross-host pair, or a participant is done
 /// or ready before it starts, or starts before it opens.

@@ -94,6 +94,11 @@ void open_reader(World& w, Id i, int writer, Id j) {
   move(w, r.timer, w.now + w.sedp.preemptive_ack_delay.count());
 }
 
+void receive_gap(World& w, Id j, const Message& m) {
+  Reader& r = w.readers.at({m.owner, m.writer, j});
+  if (r.open) r.received.insert(m.bitmap.begin(), m.bitmap.end());
+}
+
 void receive_heartbeat(World& w, Id j, const Message& m) {
   Reader& r = w.readers.at({m.owner, m.writer, j});
   if (!r.open) return;

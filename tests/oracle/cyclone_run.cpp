@@ -56,6 +56,9 @@ void receive(World& w, const Event& e) {
       case MessageKind::heartbeat:
         receive_heartbeat(w, e.who, m);
         break;
+      case MessageKind::gap:
+        receive_gap(w, e.who, m);
+        break;
       case MessageKind::acknack:
         receive_acknack(w, e.who, m, packet.source);
         break;

@@ -81,7 +81,7 @@ struct Destination {
   std::uint64_t version = 0;
 };
 
-enum class MessageKind { spdp, data, heartbeat, acknack };
+enum class MessageKind { spdp, data, heartbeat, acknack, gap };
 
 struct Message {
   MessageKind kind = MessageKind::spdp;
@@ -96,7 +96,7 @@ struct Message {
   Sample base = 0;              // ACKNACK
   Sample first = 1;             // HEARTBEAT: the lowest that exists
   bool completes = false;       // the packet that it joins is sent at once
-  std::set<Sample> bitmap;      // ACKNACK
+  std::set<Sample> bitmap;      // ACKNACK; GAP: what exists no more
 };
 
 struct Packet {
@@ -283,6 +283,7 @@ void let_answer_go(World& w, Id i);
 
 // cyclone_reader.cpp
 void open_reader(World& w, Id i, int writer, Id j);
+void receive_gap(World& w, Id j, const Message& m);
 void receive_heartbeat(World& w, Id j, const Message& m);
 std::optional<Message> fire_acknack(World& w, Id i, int writer, Id j);
 

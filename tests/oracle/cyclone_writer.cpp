@@ -91,6 +91,21 @@ bool retransmit(World& w, Id i, int writer, Id j, Sample sample) {
   return true;
 }
 
+// One GAP; its list begins behind the first run of numbers.
+Message gap_message(Id i, int writer, Id j, const std::set<Sample>& gone) {
+  Message m;
+  m.kind = MessageKind::gap;
+  m.owner = i;
+  m.writer = writer;
+  m.to = only(j);
+  m.bitmap = gone;
+  Sample run_end = *gone.begin();
+  while (gone.contains(run_end)) ++run_end;
+  const Sample bits = *gone.rbegin() + 1 - run_end;
+  m.bytes = 32 + (bits + 31) / 32 * 4;
+  return m;
+}
+
 }  // namespace
 
 Message heartbeat_to(World& w, Id i, int writer, const Destination& to) {
@@ -179,15 +194,22 @@ void receive_acknack(World& w, Id i, const Message& m, Id j) {
     return;
   }
   bool accepted = false;
+  std::set<Sample> gone;
   for (const Sample sample : m.bitmap) {
     if (sample > writer.sent && !w.makes(Mistake::unsent_repaired)) break;
     if (sample > writer.history) break;
+    if (sample < writer.first) {
+      gone.insert(sample);
+      accepted = true;
+      continue;
+    }
     if (retransmit(w, i, m.writer, j, sample)) {
       accepted = true;
     } else if (!w.makes(Mistake::refusals_ignored)) {
       break;
     }
   }
+  if (!gone.empty()) enqueue(w, i, gap_message(i, m.writer, j, gone));
   if (!accepted) return;
   if (!w.makes(Mistake::repairs_not_answered)) answer(w, i, m.writer, j);
   if (!w.makes(Mistake::repairs_keep_n)) writer.n = 0;

@@ -90,12 +90,15 @@ std::string lines(const Complaints& complaints) {
   return text;
 }
 
-/// The pages that state the rules of a composition; with a life Fast DDS and Cyclone DDS have those of
-/// their own pages, too. Others may speak of any of them.
+/// The pages that state the rules of a composition; with a life Fast DDS and Cyclone DDS have those
+/// of their own pages, too. Others may speak of any of them.
 const std::multimap<std::string, std::string_view> page_of{
-    {"model.md", "paper"},           {"fastdds.md", "fastdds"},
-    {"cyclone.md", "cyclone"},       {"museum.md", "paper-amended"},
-    {"museum.md", "fastdds-living"}, {"discovery-server.md", "fastdds-server"},
+    {"model.md", "paper"},
+    {"fastdds.md", "fastdds"},
+    {"cyclone.md", "cyclone"},
+    {"museum.md", "paper-amended"},
+    {"museum.md", "fastdds-living"},
+    {"discovery-server.md", "fastdds-server"},
     {"cyclone-life.md", "cyclone-living"}};
 
 TEST(Guide, RefersToRulesAndEffectsThatExist) {
