@@ -53,5 +53,69 @@ const auto name = [](const auto& tested) { return tested.param.name; };
 INSTANTIATE_TEST_SUITE_P(Vectors, CycloneLife, testing::ValuesIn(vectors::cyclone_life_vectors()),
                          name);
 
+// Without delays, so that one can do it by hand (specs/guide/cyclone-life.md).
+
+constexpr std::int64_t ms = 1'000'000;
+
+model::Scenario without_delays(model::Scenario scenario) {
+  scenario.wireless = {};
+  scenario.wireless.kind = model::ServiceKind::constant_delay;
+  scenario.wireless.one_way = model::Nanoseconds{0};
+  scenario.deployment.loopback_delay = model::Nanoseconds{0};
+  scenario.deployment.send_time = model::Nanoseconds{0};
+  return scenario;
+}
+model::Scenario cut(model::Scenario scenario, std::int64_t start_s, std::int64_t end_s) {
+  scenario.deployment.life->outages.push_back({0, 0, model::Nanoseconds{start_s * 1'000 * ms},
+                                               model::Nanoseconds{end_s * 1'000 * ms},
+                                               model::Reach::all, model::Reach::all});
+  return scenario;
+}
+model::Scenario peers_of_11() {
+  model::Scenario scenario = without_delays(vectors::pruning(vectors::two_peers(100)));
+  scenario.deployment.participants[1].start = model::Nanoseconds{19 * ms};
+  scenario.deployment.participants[1].endpoints_done = model::Nanoseconds{24 * ms};
+  return scenario;
+}
+std::optional<std::int64_t> complete_at_ms(const model::Scenario& scenario) {
+  const auto time = model::simulate(scenario).discovery_time;
+  if (!time) return {};
+  return time->count() / ms;
+}
+
+TEST(CycloneLifeByHand, AnOutageEndsWithTheNextAnnouncement) {
+  const auto two = without_delays(vectors::two_lives(model::AllowMulticast::always));
+  // Forgotten at 18.108 and 18.208; the announcement of 32.1 is a first one, HEARTBEATs 1 ms later.
+  EXPECT_EQ(complete_at_ms(cut(two, 12, 27)), 32'101);
+  // From 17.8 to 18.6 nobody sends a HEARTBEAT, so leases end after the outage has.
+  EXPECT_EQ(complete_at_ms(cut(two, 12, 18)), 24'101);
+  EXPECT_EQ(ns(model::simulate(cut(two, 12, 14)).recovery_time), 0);
+}
+
+TEST(CycloneLifeByHand, ALateEndpointWaitsForTheNextHeartbeat) {
+  auto two = without_delays(vectors::two_lives(model::AllowMulticast::always));
+  two.deployment.life->endpoints.push_back({0, 1, 0, model::Nanoseconds{13'000 * ms}});
+  EXPECT_EQ(complete_at_ms(cut(two, 12, 17)), 18'100);
+}
+
+TEST(CycloneLifeByHand, ElevenWithoutMulticastForgetsAddresses) {
+  EXPECT_EQ(complete_at_ms(cut(peers_of_11(), 12, 37)), 48'101);
+  EXPECT_EQ(complete_at_ms(cut(peers_of_11(), 12, 57)), std::nullopt);
+}
+
+TEST(CycloneLifeByHand, AnIntervalOrALongerDelayCuresThat) {
+  auto hasty = cut(peers_of_11(), 12, 57);
+  hasty.dds.spdp.period = model::Nanoseconds{5'000 * ms};
+  EXPECT_EQ(complete_at_ms(hasty), 60'101);
+  auto patient = cut(peers_of_11(), 12, 67);
+  patient.dds.spdp.initial_prune_delay = model::Nanoseconds{1'000'000 * 1'000 * ms};
+  patient.dds.spdp.discovered_prune_delay = patient.dds.spdp.initial_prune_delay;
+  EXPECT_EQ(complete_at_ms(patient), 78'101);
+  auto ten = cut(peers_of_11(), 12, 57);
+  ten.dds.spdp.initial_prune_delay.reset();
+  ten.dds.spdp.discovered_prune_delay.reset();
+  EXPECT_EQ(complete_at_ms(ten), 64'101);  // 0.10 drops no address
+}
+
 }  // namespace cyclone_life_test
 }  // namespace stormproof
