@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "model/engine/network.hpp"
+
 namespace stormproof::model::cyclone {
 
 namespace {
@@ -51,6 +53,8 @@ void Sender::send(Number i, Number to, model::Packet packet) {
   }
   emit(i, std::move(packet));
 }
+
+bool Sender::stalls(Number i) const { return network_.stalls(i); }
 
 void Sender::emit(Number i, model::Packet&& sent) {
   sent.use = TrafficClass::user_control;

@@ -6,7 +6,11 @@
 #include <vector>
 
 #include "model/cyclone/event_threads.hpp"
-#include "model/engine/network.hpp"
+#include "model/engine/packet.hpp"
+
+namespace stormproof::model {
+class Network;  // model/engine/network.hpp
+}  // namespace stormproof::model
 
 namespace stormproof::model::cyclone {
 
@@ -24,7 +28,7 @@ class Sender {
   void count_admitted(const model::Packet& packet);
   /// What has been sent over the relation is new again.
   void forget(Number relation) { std::ranges::fill(delivered_[relation], std::uint64_t{0}); }
-  [[nodiscard]] bool stalls(Number i) const { return network_.stalls(i); }
+  [[nodiscard]] bool stalls(Number i) const;
 
  private:
   TrafficClass count(const Submessage& m, Number pair, bool to_group);
