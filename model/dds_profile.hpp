@@ -67,6 +67,12 @@ enum class Piggyback : std::uint8_t { cumulative, linear, off, group };
 /// In which order a participant of `implementation: fastdds` opens what it has with one that it
 /// recognises: its endpoints, or the built-in ones beside them.
 enum class MatchOrder : std::uint8_t { endpoints_first, builtin_first };
+/// Which samples of the TypeLookup writers of `implementation: fastdds` go only to the participant
+/// that they are for: none, answers, or questions, too.
+enum class LookupFilter : std::uint8_t { none, answers, all };
+/// What a participant of `implementation: fastdds` asks one question for: a type of a stream, a
+/// type, or all types of a participant that wait.
+enum class LookupUnit : std::uint8_t { type_and_stream, type, participant };
 /// From which version of Fast DDS on announcements and descriptors have their sizes.
 enum class SizesSince : std::uint8_t { v2_6, v3_2, v3_6 };
 
@@ -178,6 +184,8 @@ struct VersionProfile {
   Whether type_lookup = Whether::no;  ///< there are endpoints that ask for types, and answer
   /// From what begins it to the HEARTBEAT of a writer of questions or answers (τ_L).
   Nanoseconds typelookup_heartbeat_period{350'000'000};
+  LookupFilter typelookup_filter = LookupFilter::none;
+  LookupUnit typelookup_unit = LookupUnit::type_and_stream;
   Bytes type_object_bytes{300};     ///< DATA submessage that answers with a type
   Bytes descriptor_extra_bytes{0};  ///< more in each descriptor: what it says of its type; 0: none,
                                     ///< or what it is if endpoints have types (`deployment.types`)

@@ -45,6 +45,8 @@ struct Implementation {
             d.when(waits, [&] { d.call(lookup::WaitForType{}); });
             d.when(!waits, [&] { d.perform(control::OpenTopics{}); });
           });
+      w.when(w(lookup::AsksForTypes{}),
+             [&] { w.reverse([](auto& back) { back.call(lookup::AskForAll{}); }); });
     });
   }
   template <class W>

@@ -24,8 +24,18 @@ struct AsksForTypes : Fact {
 };
 struct ExpiryPeriod : DelayOf<"typelookup_heartbeat_period"> {};  ///< τ_L
 
-/// The control-only relation is one of questions or answers.
+// What no version of Fast DDS has, but might: questions and answers go to whom they are for alone,
+// and a participant is asked for all its types at once, or for each once whatever its stream.
+struct FiltersAnswers : SwitchOf<"typelookup_filter", "answers", "all"> {};
+struct FiltersQuestions : SwitchOf<"typelookup_filter", "all"> {};
+struct AsksForStreams : SwitchOf<"typelookup_unit", "type_and_stream"> {};
+struct AsksForAll : SwitchOf<"typelookup_unit", "participant"> {};
+/// Then the source of the pair has asked the destination, which has not answered yet.
+struct HasAsked : Flag<owner::pair> {};
+
+/// The control-only relation is one of questions or answers; of answers.
 struct OfLookups : Answer {};
+struct OfAnswers : Answer {};
 /// Its writer has samples.
 struct KeepsSamples : Fact {
   template <class W>
@@ -37,8 +47,9 @@ struct KeepsSamples : Fact {
 struct LookupExpiry : Part<SingleShot, owner::control_writer> {};
 struct LookupExpiryDue : Timer<owner::control_writer> {};
 
-struct SamplesSent : Number<owner::control_writer> {};            ///< H
-struct GetsSamples : Flag<owner::control_relation> {};            ///< the reader is among M
+struct SamplesSent : Number<owner::control_writer> {};    ///< H
+struct GetsSamples : Flag<owner::control_relation> {};    ///< the reader is among M
+struct SamplesTold : Number<owner::control_relation> {};  ///< the last one that went to the reader
 struct SamplesAcknowledged : Number<owner::control_relation> {};  ///< low, at the writer
 struct SamplesGot : Number<owner::control_relation> {};           ///< at the reader
 struct SamplesQueued : Number<owner::participant> {};  ///< before its next asynchronous run

@@ -1,7 +1,8 @@
 // How a participant asks for a type that it does not know (specs/guide/fastdds.md, "Lookups of
 // types"): a descriptor that is handed over waits for its type, and its writer's participant is
 // asked; questions and answers go through the asynchronous queue, before descriptors, and to all
-// readers of their writer, of whom one takes them up.
+// readers of their writer, of whom one takes them up. Two switches are what might repair that: to
+// whom samples go, and what there is one question for.
 #pragma once
 
 #include "fsm/composition/control.hpp"
@@ -29,8 +30,13 @@ void send(W& w, const typename W::Int& stage, const typename W::Int& looked_up) 
 
 /// The reader's participant knows the type: it has created an endpoint with it, or looked it up.
 struct KnowsType : Answer {};
-/// Descriptors of this type and stream, whoever has them, wait at the reader's participant.
+/// Descriptors of this type and stream, whoever has them, wait at the reader's participant; or of
+/// this type alone.
 struct SomebodyWaits : Answer {};
+struct SomebodyWaitsForType : Answer {};
+/// At the source of the pair wait descriptors of the destination, each the first one of its type
+/// and stream.
+struct FirstOnesWait : Answer {};
 /// What a sample says is looked up: the type, for descriptors of this stream.
 struct LookupOfDescriptor : Amount {};
 
@@ -41,11 +47,27 @@ struct TypeIsKnown : Occasion<owner::descriptor> {};
 struct WaitForType : Procedure {
   template <class W>
   static void body(W& w) {
-    const auto is_first = !w(SomebodyWaits{});
+    const auto streams = w(AsksForStreams{});
+    const auto is_asked =
+        (streams && w(SomebodyWaits{})) || (!streams && w(SomebodyWaitsForType{}));
+    const auto asks = !w(AsksForAll{}) && !is_asked;
     const auto looked_up = w(LookupOfDescriptor{});
     w.set(fastdds::WaitsForType{}, typename W::Bool(true));
-    w.when(is_first,
+    w.when(asks,
            [&] { w.reverse([&](auto& back) { send(back, typename W::Int(0), looked_up); }); });
+  }
+};
+/// The source of the pair asks the destination for all types that nobody else was asked for, unless
+/// it waits for an answer.
+struct AskForAll : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.when(w(AsksForAll{}) && !w(HasAsked{}), [&] {
+      w.when(w(FirstOnesWait{}), [&] {
+        w.set(HasAsked{}, typename W::Bool(true));
+        send(w, typename W::Int(0), typename W::Int(0));
+      });
+    });
   }
 };
 struct DescriptorStopsWaiting : Rule<Happens<TypeIsKnown>> {
@@ -58,8 +80,8 @@ struct DescriptorStopsWaiting : Rule<Happens<TypeIsKnown>> {
 
 // Samples. ----------------------------------------------------------------------------------------
 
-/// The receiver knows the type. What waits for it does not any more: publications, then
-/// subscriptions, each in the order in which they came.
+/// The receiver knows the type, or one after the other. What waits for it does not any more:
+/// publications, then subscriptions, each in the order in which they came.
 struct LearnType : Opaque {
   template <class W>
   static void contract(W& w) {
@@ -76,7 +98,13 @@ struct SampleArrives : Rule<Received<LookupSample>> {
         const auto stage = w(Stage{});
         const auto looked_up = w(LookedUp{});
         const auto is_last = !(typename W::Int(last_stage) > stage);
-        w.when(is_last, [&] { w.perform(LearnType{}); });
+        w.when(is_last, [&] {
+          w.perform(LearnType{});
+          w.reverse([](auto& back) {
+            back.set(HasAsked{}, typename W::Bool(false));
+            back.call(AskForAll{});
+          });
+        });
         w.when(!is_last, [&] {
           w.reverse([&](auto& back) { send(back, stage + typename W::Int(1), looked_up); });
         });
@@ -89,8 +117,16 @@ struct SampleArrives : Rule<Received<LookupSample>> {
 struct SentLookup : Amount {};
 struct SentStage : Amount {};
 struct IsAddressee : Answer {};
+/// It goes to the reader: in all versions, whoever it is for.
+struct GoesToReader : Fact {
+  template <class W>
+  static auto of(W& w) {
+    const auto filters = w(FiltersQuestions{}) || (w(FiltersAnswers{}) && w(OfAnswers{}));
+    return !filters || w(IsAddressee{});
+  }
+};
 
-/// The oldest sample of its participant's queue goes to all readers of the writer.
+/// The oldest sample of its participant's queue goes to readers of the writer.
 struct SampleLeaves : Occasion<owner::control_writer> {};
 
 /// The samples of the participant's queue are sent, the oldest first.
@@ -110,9 +146,11 @@ struct PackSample : Opaque {
   template <class W>
   static void contract(W& w) {
     w.for_readers([](auto& r) {
-      r.emit(LookupSample{},
-             says(Says{SampleNumber{}, r(SamplesSent{})}, Says{LookedUp{}, r(SentLookup{})},
-                  Says{Stage{}, r(SentStage{})}, Says{IsForReader{}, r(IsAddressee{})}));
+      r.when(r(GoesToReader{}), [&] {
+        r.emit(LookupSample{},
+               says(Says{SampleNumber{}, r(SamplesSent{})}, Says{LookedUp{}, r(SentLookup{})},
+                    Says{Stage{}, r(SentStage{})}, Says{IsForReader{}, r(IsAddressee{})}));
+      });
     });
   }
 };
@@ -130,6 +168,9 @@ struct SampleIsSent : Rule<Happens<SampleLeaves>> {
   template <class W>
   static void run(W& w) {
     w.set(SamplesSent{}, w(SamplesSent{}) + typename W::Int(1));
+    w.for_readers([](auto& r) {
+      r.when(r(GoesToReader{}), [&] { r.set(SamplesTold{}, r(SamplesSent{})); });
+    });
     w.perform(PackSample{});
     arm(w);
     w.perform(ChargeSample{});
@@ -143,13 +184,13 @@ struct LookupHeartbeatToAll : Opaque {
     w.for_readers([](auto& r) { control::emit_user_heartbeat(r); });
   }
 };
-/// Until everybody has acknowledged everything.
+/// Until everybody has acknowledged everything that went to it.
 struct LookupExpires : Rule<Due<LookupExpiryDue>> {
   template <class W>
   static void run(W& w) {
     expire<LookupExpiry>(w, [&] {
       const auto some_lack =
-          w.some_reader([](auto& r) { return r(SamplesSent{}) > r(SamplesAcknowledged{}); });
+          w.some_reader([](auto& r) { return r(SamplesTold{}) > r(SamplesAcknowledged{}); });
       w.when(some_lack, [&] {
         w.perform(LookupHeartbeatToAll{});
         w.perform(RefillLookupBudget{});
@@ -161,7 +202,8 @@ struct LookupExpires : Rule<Due<LookupExpiryDue>> {
 
 using Parts = TypeList<LookupExpiry>;
 using Timers = TypeList<LookupExpiryDue>;
-using State = TypeList<SamplesSent, GetsSamples, SamplesAcknowledged, SamplesGot, SamplesQueued>;
+using State = TypeList<SamplesSent, GetsSamples, SamplesTold, SamplesAcknowledged, SamplesGot,
+                       SamplesQueued, HasAsked>;
 using Packets = TypeList<LookupSample>;
 using Occasions = TypeList<TypeIsKnown, SampleLeaves>;
 using Rules = TypeList<DescriptorStopsWaiting, SampleArrives, SampleIsSent, LookupExpires>;

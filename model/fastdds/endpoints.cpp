@@ -72,15 +72,20 @@ std::int64_t largest_submessage_bytes(const DdsProfile& dds) {
                    sizes.user_publication, sizes.user_subscription});
 }
 
-std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage) {
-  const std::array bytes{std::int64_t{156}, std::int64_t{96}, std::int64_t{148},
-                         dds.version.type_object_bytes.count()};
+std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage, std::size_t types) {
+  constexpr std::int64_t identifier = 16;
+  constexpr std::int64_t no_dependencies = 96;
+  const std::int64_t object = dds.version.type_object_bytes.count();
+  const std::array bytes{std::int64_t{156}, no_dependencies, std::int64_t{148}, object};
+  const std::array more{identifier, std::int64_t{0}, identifier,
+                        std::max<std::int64_t>(object - no_dependencies, 0)};
   // With a mistake in the rules a chain goes on after its last sample.
-  return bytes[std::min<std::size_t>(stage, bytes.size() - 1)];
+  const std::size_t k = std::min<std::size_t>(stage, bytes.size() - 1);
+  return bytes[k] + static_cast<std::int64_t>(types - 1) * more[k];
 }
 
-std::int64_t largest_sample_bytes(const DdsProfile& dds) {
-  return std::max(sample_bytes(dds, 0), sample_bytes(dds, 3));
+std::int64_t largest_sample_bytes(const DdsProfile& dds, std::size_t types) {
+  return std::max(sample_bytes(dds, 0, types), sample_bytes(dds, 3, types));
 }
 
 std::uint32_t topic_of(Stream s, std::uint32_t d) {

@@ -51,10 +51,12 @@ struct VersionSizes {
 /// Of the largest descriptor.
 [[nodiscard]] std::int64_t largest_submessage_bytes(const DdsProfile& dds);
 
-/// Bytes of the DATA submessage of a question or answer about types, by its stage
-/// (fsm/composition/lookup_parts.hpp), and of the largest one.
-[[nodiscard]] std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage);
-[[nodiscard]] std::int64_t largest_sample_bytes(const DdsProfile& dds);
+/// Bytes of the DATA submessage of a question or answer about so many types, at least one, by its
+/// stage (fsm/composition/lookup_parts.hpp), and of the largest one. Measured is the size for one;
+/// each more is assumed to bring its identifier, or what its answer has beside a header of 96.
+[[nodiscard]] std::int64_t sample_bytes(const DdsProfile& dds, std::uint32_t stage,
+                                        std::size_t types);
+[[nodiscard]] std::int64_t largest_sample_bytes(const DdsProfile& dds, std::size_t types);
 
 /// What a descriptor says of its type if endpoints have types: its TypeInformation and its hash.
 inline constexpr std::int64_t type_information_bytes = 96 + 92;

@@ -1,5 +1,5 @@
 // How samples that ask for types, and answers, become messages: as descriptors that are repaired do
-// (model/fastdds/sender.cpp), but each goes to all readers of its writer.
+// (model/fastdds/sender.cpp), but each goes to all readers of its writer, unless a filter is on.
 #include "model/fastdds/lookups.hpp"
 
 #include <algorithm>
@@ -33,6 +33,21 @@ bool Lookups::waits(std::uint32_t relation, std::uint32_t d) const {
          std::ranges::find(list->second, Waiting{relation, d}) != list->second.end();
 }
 
+std::vector<std::uint32_t> Lookups::first_ones(std::uint32_t pair, std::size_t most) {
+  std::vector<std::uint32_t> types;
+  for (const Stream s : streams) {
+    const auto relation = static_cast<std::uint32_t>(2 * topology_.pair(pair).reverse +
+                                                     static_cast<std::uint32_t>(index_of(s)));
+    for (std::uint32_t d = 0; d < topology_.descriptor_count(relation); ++d) {
+      if (types.size() >= most) return types;
+      if (!waits(relation, d) || !is_first(relation, d)) continue;
+      const std::uint32_t type = looked_up(relation, d) / 2;
+      if (std::ranges::find(types, type) == types.end()) types.push_back(type);
+    }
+  }
+  return types;
+}
+
 std::uint32_t Lookups::take(std::uint32_t participant) {
   const Sample sample = queues_[participant].front();
   queues_[participant].pop_front();
@@ -41,11 +56,14 @@ std::uint32_t Lookups::take(std::uint32_t participant) {
   return writer;
 }
 
-void Protocol::pack_sample(std::uint32_t w) {
-  Message& message = async_message_;
+std::int64_t Protocol::last_sample_bytes(std::uint32_t w) const {
   const Sample& sample = lookups_.last_sample(w - first_lookup_writer_);
-  const std::vector<std::uint32_t>& readers = writers_[w].readers;
-  const std::int64_t bytes = timestamp_bytes + sample_bytes(run_.scenario.dds, sample.stage);
+  return sample_bytes(run_.scenario.dds, sample.stage, lookups_.type_count(sample.looked_up));
+}
+
+void Protocol::pack_sample(std::uint32_t w, const std::vector<std::uint32_t>& readers) {
+  Message& message = async_message_;
+  const std::int64_t bytes = timestamp_bytes + last_sample_bytes(w);
   if (message.open && (message.writer != w || message.readers != readers ||
                        message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
     flush(message, SendMode::async);
@@ -60,8 +78,7 @@ void Protocol::pack_sample(std::uint32_t w) {
 }
 
 void Protocol::charge_sample(std::uint32_t w) {
-  const std::uint32_t stage = lookups_.last_sample(w - first_lookup_writer_).stage;
-  charge(async_message_, sample_bytes(run_.scenario.dds, stage), SendMode::async);
+  charge(async_message_, last_sample_bytes(w), SendMode::async);
 }
 
 /// A message of such a writer; without samples it is a HEARTBEAT.

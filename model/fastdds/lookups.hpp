@@ -28,8 +28,10 @@ namespace lookup = fsm::composition::lookup;
 /// One addressee takes a sample up, whoever receives it.
 struct Sample {
   std::uint32_t addressee = 0;
-  std::uint32_t looked_up = 0;  ///< 2 · type + stream of the descriptors that wait for it
-  std::uint32_t stage = 0;      ///< 0 and 2 are questions, 1 and 3 answers
+  /// 2 · type + stream of the descriptors that wait for it; or, if all types that wait are asked
+  /// for at once, the number of the question.
+  std::uint32_t looked_up = 0;
+  std::uint32_t stage = 0;  ///< 0 and 2 are questions, 1 and 3 answers
 };
 
 class Lookups {
@@ -37,9 +39,10 @@ class Lookups {
   /// A descriptor of a relation, whose reader's participant waits for its type.
   using Waiting = std::pair<std::uint32_t, std::uint32_t>;
 
-  Lookups(const Deployment& deployment, const Topology& topology)
+  Lookups(const Scenario& scenario, const Topology& topology)
       : topology_{topology},
-        types_{deployment},
+        types_{scenario.deployment},
+        asks_for_all_{scenario.dds.version.typelookup_unit == LookupUnit::participant},
         learned_(topology.participant_count()),
         queues_(topology.participant_count()),
         histories_(control_writers * std::size_t{topology.participant_count()}) {}
@@ -50,9 +53,7 @@ class Lookups {
   /// stream.
   [[nodiscard]] bool knows(std::uint32_t participant, std::uint32_t looked_up,
                            std::array<std::uint32_t, 2> created) const;
-  void learn(std::uint32_t participant, std::uint32_t looked_up) {
-    learned_[participant].insert(looked_up / 2);
-  }
+  void learn(std::uint32_t participant, std::uint32_t type) { learned_[participant].insert(type); }
 
   /// Those that wait for the type, of this stream, in the order in which they came.
   [[nodiscard]] std::vector<Waiting>& waiting(std::uint32_t participant, std::uint32_t looked_up) {
@@ -63,8 +64,28 @@ class Lookups {
   }
   [[nodiscard]] bool waits(std::uint32_t relation, std::uint32_t d) const;
 
-  void queue(std::uint32_t participant, const Sample& sample) {
-    queues_[participant].push_back(sample);
+  /// Whether descriptor d, which waits, is the first one of its type and stream to do so.
+  [[nodiscard]] bool is_first(std::uint32_t relation, std::uint32_t d) {
+    return waiting_with(relation, d).front() == Waiting{relation, d};
+  }
+  /// Types that the source of the pair has to ask its destination for, in the order of the
+  /// descriptors, publications first; `most` of them.
+  [[nodiscard]] std::vector<std::uint32_t> first_ones(std::uint32_t pair, std::size_t most);
+  /// What a sample of a lookup is about.
+  [[nodiscard]] std::vector<std::uint32_t> types_of(std::uint32_t looked_up) const {
+    return asks_for_all_ ? questions_[looked_up] : std::vector{looked_up / 2};
+  }
+  [[nodiscard]] std::size_t type_count(std::uint32_t looked_up) const {
+    return asks_for_all_ ? questions_[looked_up].size() : 1;
+  }
+
+  /// A question for all types gets its number, and is about those that wait now.
+  void queue(std::uint32_t pair, Sample sample) {
+    if (asks_for_all_ && sample.stage == 0) {
+      sample.looked_up = static_cast<std::uint32_t>(questions_.size());
+      questions_.push_back(first_ones(pair, SIZE_MAX));
+    }
+    queues_[topology_.pair(pair).source].push_back(sample);
   }
   [[nodiscard]] bool has_queued(std::uint32_t participant) const {
     return !queues_[participant].empty();
@@ -86,7 +107,9 @@ class Lookups {
  private:
   const Topology& topology_;
   const Types types_;
-  std::vector<std::set<std::uint32_t>> learned_;  // types, by participant
+  const bool asks_for_all_;
+  std::vector<std::vector<std::uint32_t>> questions_;  // for all types: which
+  std::vector<std::set<std::uint32_t>> learned_;       // types, by participant
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Waiting>> waiting_;
   std::vector<std::deque<Sample>> queues_;      // by participant
   std::vector<std::vector<Sample>> histories_;  // by writer
@@ -101,7 +124,7 @@ class ControlSteps {
   explicit ControlSteps(const RunState& run)
       : control_{run.topology, run.scenario},
         has_types_{run.scenario.deployment.types.has_value()},
-        lookups_{run.scenario.deployment, run.topology} {}
+        lookups_{run.scenario, run.topology} {}
 
   [[nodiscard]] Number pair_of_control(Number relation) const { return control_.pair_of(relation); }
   [[nodiscard]] Number writer_of_control(Number relation) const {
@@ -125,6 +148,10 @@ class ControlSteps {
     return control_.is_lookup(w.template number<comp::owner::control_relation>());
   }
   template <class World>
+  [[nodiscard]] bool answer(lookup::OfAnswers, const World& w) const {
+    return w.template number<comp::owner::control_writer>() % control_writers == 1;
+  }
+  template <class World>
   [[nodiscard]] bool answer(lookup::KnowsType, const World& w) const {
     const auto relation = w.template number<comp::owner::relation>();
     const Number j = host().topology().pair(relation / 2).destination;
@@ -136,6 +163,32 @@ class ControlSteps {
   [[nodiscard]] bool answer(lookup::SomebodyWaits, const World& w) {
     return !lookups_.waiting_with(w.template number<comp::owner::relation>(), w.descriptor())
                 .empty();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::SomebodyWaitsForType, const World& w) {
+    const Number looked_up =
+        lookups_.looked_up(w.template number<comp::owner::relation>(), w.descriptor());
+    const Number j =
+        host().topology().pair(w.template number<comp::owner::relation>() / 2).destination;
+    return !lookups_.waiting(j, looked_up).empty() || !lookups_.waiting(j, looked_up ^ 1U).empty();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::FirstOnesWait, const World& w) {
+    return !lookups_.first_ones(w.template number<comp::owner::pair>(), 1).empty();
+  }
+  // What the last sample of a writer says.
+  template <class World>
+  [[nodiscard]] std::int64_t answer(lookup::SentLookup, const World& w) const {
+    return last_sample(w).looked_up;
+  }
+  template <class World>
+  [[nodiscard]] std::int64_t answer(lookup::SentStage, const World& w) const {
+    return last_sample(w).stage;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(lookup::IsAddressee, const World& w) const {
+    const Pair& ends = host().topology().pair(w.template number<comp::owner::pair>());
+    return last_sample(w).addressee == ends.destination;
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(lookup::LookupOfDescriptor, const World& w) const {
@@ -179,8 +232,9 @@ class ControlSteps {
   // Opaque steps.
   template <class World>
   void perform(lookup::QueueSample, World& w, std::int64_t stage, std::int64_t looked_up) {
-    const Pair& pair = host().topology().pair(w.template number<comp::owner::pair>());
-    lookups_.queue(pair.source,
+    const auto number = w.template number<comp::owner::pair>();
+    const Pair& pair = host().topology().pair(number);
+    lookups_.queue(number,
                    {pair.destination, static_cast<Number>(looked_up), static_cast<Number>(stage)});
     ++host().template at<lookup::SamplesQueued>(pair.source);
   }
@@ -188,17 +242,19 @@ class ControlSteps {
   void perform(lookup::LearnType, World& w) {
     const Number looked_up = sample_in(w.packet()).looked_up;
     const Number j = host().topology().pair(w.template number<comp::owner::pair>()).destination;
-    lookups_.learn(j, looked_up);
-    for (const Number s : {0U, 1U}) {
-      const std::vector<Lookups::Waiting> list = lookups_.waiting(j, looked_up / 2 * 2 + s);
-      for (const auto& [relation, d] : list) {
-        run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
+    for (const Number type : lookups_.types_of(looked_up)) {
+      lookups_.learn(j, type);
+      for (const Number s : {0U, 1U}) {
+        const std::vector<Lookups::Waiting> list = lookups_.waiting(j, 2 * type + s);
+        for (const auto& [relation, d] : list) {
+          run_rule<comp::Happens<lookup::TypeIsKnown>>(w.host(), relation, nullptr, d);
+        }
       }
     }
   }
 
  protected:
-  /// The oldest sample of the queue of participant i is sent, to all readers of its writer.
+  /// The oldest sample of the queue of participant i is sent.
   template <class World>
   void send_sample(World& w, Number i) {
     --host().template at<lookup::SamplesQueued>(i);
@@ -210,6 +266,10 @@ class ControlSteps {
   Lookups lookups_;
 
  private:
+  template <class World>
+  [[nodiscard]] const Sample& last_sample(const World& w) const {
+    return lookups_.last_sample(w.template number<comp::owner::control_writer>());
+  }
   [[nodiscard]] Host& host() { return static_cast<Host&>(*this); }
   [[nodiscard]] const Host& host() const { return static_cast<const Host&>(*this); }
   /// The sample that is received, in a packet that has no other.

@@ -220,7 +220,12 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   }
   template <class World>
   void perform(lookup::PackSample, World& w) {
-    pack_sample(lookup_writer(w.template number<comp::owner::control_writer>()));
+    targets_.clear();
+    w.for_readers([&](auto& r) {
+      if (!r(lookup::GoesToReader{})) return;
+      targets_.push_back(r.template number<comp::owner::control_relation>());
+    });
+    pack_sample(lookup_writer(w.template number<comp::owner::control_writer>()), targets_);
   }
   template <class World>
   void perform(lookup::ChargeSample, World& w) {
@@ -361,7 +366,8 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   void note_notified(std::uint32_t relation, std::uint32_t d);
 
   // lookups.cpp; `w` is a writer of questions or answers.
-  void pack_sample(std::uint32_t w);
+  [[nodiscard]] std::int64_t last_sample_bytes(std::uint32_t w) const;
+  void pack_sample(std::uint32_t w, const std::vector<std::uint32_t>& readers);
   void charge_sample(std::uint32_t w);
   void send_samples(const Message& message);
   void send_lookup_heartbeats(std::uint32_t w);

@@ -4,6 +4,8 @@
 // services and user topics have, in each participant, a type of their own.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +22,12 @@ inline constexpr std::uint32_t service_endpoints = 12;
 /// node has, and user endpoints.
 [[nodiscard]] constexpr std::uint64_t endpoints_with_own_types(const Participant& participant) {
   return std::uint64_t{service_endpoints} + participant.publications + participant.subscriptions;
+}
+
+/// Different types of one participant, at most.
+[[nodiscard]] constexpr std::size_t most_types(const EndpointTypes& types) {
+  constexpr std::size_t others = 4;  // of the node's own topics, and of user topics
+  return others + std::max(service_endpoints, types.unknown_per_participant);
 }
 
 class Types {

@@ -147,6 +147,11 @@ void draw_types(Dice& dice, Scenario& scenario) {
   if (dice.chance(60)) version.type_lookup = Whether::yes;
   version.typelookup_heartbeat_period = Nanoseconds{dice.among({350, 50, 10, 3}) * ms};
   version.type_object_bytes = Bytes{dice.among({300, 300, 1'400, dice.between(1, 9'000)})};
+  if (dice.chance(50)) version.typelookup_filter = dice.choice<LookupFilter>(3);
+  if (dice.chance(50)) version.typelookup_unit = dice.choice<LookupUnit>(3);
+  if (version.typelookup_unit == LookupUnit::participant) {  // an answer is one message
+    version.type_object_bytes = Bytes{dice.among({300, 900, dice.between(1, 900)})};
+  }
   scenario.dds.sedp.piggyback_threshold_bytes =
       Bytes{dice.among({1'000, 3'000, 20'000, 106'496, 106'496})};
   scenario.wireless.lost_packets.clear();

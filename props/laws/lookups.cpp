@@ -1,7 +1,8 @@
 // law.lookups: who meets a type that it does not know asks for it once, its dependencies and then
-// the type itself; each question is answered; and a descriptor is told of when its type is known,
-// no earlier and no later. From packets, counts and the types of the deployment: what a question
-// says, and whom it is for, the watch does not see.
+// the type itself; or, where that is the unit, for all types of a participant at once; each
+// question is answered; and a descriptor is told of when its type is known, no earlier and no
+// later. From packets, counts and the types of the deployment: what a question says, and whom it is
+// for, the watch does not see.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -143,17 +144,21 @@ class LookupWatch : public AskingWatch {
     for (Number j = 0; j < participants_.size(); ++j) judge_questions(j);
   }
   void judge_questions(Number j) {
-    const Participant& participant = participants_[j];
+    const Participant& asker = participants_[j];
     std::set<Number> types;
-    for (const auto& [type, stream] : participant.met) types.insert(type);
+    for (const auto& [type, stream] : asker.met) types.insert(type);
     const std::size_t asked = sent_[std::size_t{fastdds::control_writers} * j];
-    const bool fits = asked >= samples_of_a_side * types.size() &&
-                      asked <= samples_of_a_side * participant.met.size();
-    if (fits && participant.waiting == 0) return;
+    const model::LookupUnit unit = scenario().dds.version.typelookup_unit;
+    const std::size_t least = unit == model::LookupUnit::participant
+                                  ? std::min<std::size_t>(types.size(), 1)
+                                  : types.size();
+    const std::size_t most = unit == model::LookupUnit::type ? types.size() : asker.met.size();
+    const bool fits = asked >= samples_of_a_side * least && asked <= samples_of_a_side * most;
+    if (fits && asker.waiting == 0) return;
     object_now(
         fmt::format("At {} participant {} has asked {} times about {} types, and {} "
                     "descriptors wait.",
-                    time_text(now()), j, asked, types.size(), participant.waiting));
+                    time_text(now()), j, asked, types.size(), asker.waiting));
   }
 
   const fastdds::Types types_;
@@ -168,8 +173,8 @@ class LookupWatch : public AskingWatch {
 
 constexpr Law lookups_list[] = {asking_law<LookupWatch>(
     "law.lookups",
-    "A type that is not known is asked for once, and each question answered; descriptors are told "
-    "of as soon as their types are known.")};
+    "A type that is not known is asked for once, alone or with others, and each question answered; "
+    "descriptors are told of as soon as their types are known.")};
 
 }  // namespace
 

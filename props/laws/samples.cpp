@@ -1,6 +1,7 @@
-// law.samples: what participants ask and answer about types goes to everybody whom they know, in
-// the order of its numbers, and each number once; receivers acknowledge what has come, and as long
-// as somebody has not acknowledged everything it is announced to all every τ_L.
+// law.samples: what participants ask and answer about types goes to everybody whom they know, or to
+// one where it is filtered, in the order of its numbers, and each number once; receivers
+// acknowledge what has come, and as long as somebody has not acknowledged everything that went to
+// it all are told every τ_L.
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -24,7 +25,8 @@ class SampleWatch : public AskingWatch {
  public:
   explicit SampleWatch(const model::Scenario& scenario)
       : AskingWatch{"law.samples", scenario},
-        period_{scenario.dds.version.typelookup_heartbeat_period} {}
+        period_{scenario.dds.version.typelookup_heartbeat_period},
+        filter_{scenario.dds.version.typelookup_filter} {}
 
   void run_started(const model::Topology& topology) override {
     AskingWatch::run_started(topology);
@@ -91,7 +93,9 @@ class SampleWatch : public AskingWatch {
       if (last != writer.sent && !is_packing) wrong(number, "are announced", last);
       return;
     }
-    if (last - packet.samples() != reader.told) wrong(number, "are sent in their order", last);
+    const bool is_filtered = filters(number);
+    const Number before = is_filtered ? writer.sent : reader.told;
+    if (last - packet.samples() != before) wrong(number, "are sent in their order", last);
     if (last > writer.sent && !lacks(number)) writer.due = now() + period_;
     writer.sent = std::max(writer.sent, last);
     reader.told = last;
@@ -102,6 +106,11 @@ class SampleWatch : public AskingWatch {
                            writer / fastdds::control_writers, what));
   }
 
+  /// Its samples go to one reader each.
+  [[nodiscard]] bool filters(Number writer) const {
+    using enum model::LookupFilter;
+    return filter_ == all || (filter_ == answers && writer % fastdds::control_writers == 1);
+  }
   template <class Visit>
   void for_readers(Number writer, Visit&& visit) {
     const Number i = writer / fastdds::control_writers;
@@ -114,9 +123,8 @@ class SampleWatch : public AskingWatch {
   /// Whether somebody has not acknowledged everything.
   [[nodiscard]] bool lacks(Number writer) {
     bool does = false;
-    for_readers(writer, [&](const Reader& reader) {
-      does = does || reader.acknowledged < writers_[writer].sent;
-    });
+    for_readers(writer,
+                [&](const Reader& reader) { does = does || reader.acknowledged < reader.told; });
     return does;
   }
   /// Of a writer that has said something in this event.
@@ -124,7 +132,8 @@ class SampleWatch : public AskingWatch {
     Writer& writer = writers_[number];
     bool all_reminded = true;
     for_readers(number, [&](Reader& reader) {
-      if (reader.told != writer.sent) wrong(number, "go to everybody", writer.sent);
+      const bool is_for_all = !filters(number);
+      if (is_for_all && reader.told != writer.sent) wrong(number, "go to everybody", writer.sent);
       all_reminded = std::exchange(reader.is_reminded, false) && all_reminded;
     });
     if (kind() != EventKind::lookup_expiry) return;
@@ -146,6 +155,7 @@ class SampleWatch : public AskingWatch {
   }
 
   const Nanoseconds period_;
+  const model::LookupFilter filter_;
   std::vector<Writer> writers_;  // of questions, of answers and others of each participant
   std::vector<Reader> readers_;  // by control-only relation
   std::set<Number> busy_;        // writers, in this event
@@ -153,8 +163,9 @@ class SampleWatch : public AskingWatch {
 
 constexpr Law samples_list[] = {asking_law<SampleWatch>(
     "law.samples",
-    "Questions and answers about types go to everybody, each once and in order, and are announced "
-    "every τ_L until all have acknowledged them.")};
+    "Questions and answers about types go to everybody, or where they are filtered to one, each "
+    "once and in order, and are announced every τ_L until all have acknowledged what went to "
+    "them.")};
 
 }  // namespace
 

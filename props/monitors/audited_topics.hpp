@@ -46,20 +46,6 @@ class AuditedTopics : public AuditedSteps<Self, Base, Of>,
   [[nodiscard]] const std::vector<Number>& readers_of_control(Number writer) const {
     return readers_[writer];
   }
-  // What the last sample of the relation's writer says.
-  template <class W>
-  [[nodiscard]] std::int64_t answer(lookup::SentLookup, const W& w) const {
-    return last_sample(w).looked_up;
-  }
-  template <class W>
-  [[nodiscard]] std::int64_t answer(lookup::SentStage, const W& w) const {
-    return last_sample(w).stage;
-  }
-  template <class W>
-  [[nodiscard]] bool answer(lookup::IsAddressee, const W& w) const {
-    const model::Pair& ends = this->topology().pair(w.template number<comp::owner::pair>());
-    return last_sample(w).addressee == ends.destination;
-  }
 
   template <class W>
   void perform(lookup::SendSamples, W& w) {
@@ -173,10 +159,6 @@ class AuditedTopics : public AuditedSteps<Self, Base, Of>,
                      model::fastdds::descriptor_on(topic, own)) &&
            this->has(comp::fastdds::HandedOver{}, relation, theirs) &&
            !(this->has_types_ && this->lookups_.waits(relation, theirs));
-  }
-  template <class W>
-  [[nodiscard]] const model::fastdds::Sample& last_sample(const W& w) const {
-    return this->lookups_.last_sample(w.template number<comp::owner::control_writer>());
   }
 
   std::vector<std::vector<Number>> readers_;  // of samples, by writer, as they were matched

@@ -1,6 +1,7 @@
 // Types that participants do not know: who knows which, whom they ask, and what happens to the
 // descriptors that wait meanwhile. A chain is four samples: a question about dependencies, its
-// answer, a question about the type, its answer.
+// answer, a question about the type, its answer. It is about a type of one stream, or of both, or
+// about all types of a participant that wait.
 #include <algorithm>
 
 #include "tests/oracle/fastdds_world.hpp"
@@ -83,14 +84,14 @@ void ask_for_type(World& w, const Sample& dependencies) {
   queue_sample(w, sample);
 }
 
-void learn(World& w, Id j, const Sample& last) {
-  w.participants.at(j).looked_up.insert(last.type);
+void learn(World& w, Id j, const Sample& last, const std::string& type) {
+  w.participants.at(j).looked_up.insert(type);
   std::vector<int> order{pub, sub};
   if (w.makes(Mistake::subscriptions_first)) order = {sub, pub};
   if (w.makes(Mistake::one_list_only)) order = {last.stream};
   for (const int s : order) {
-    const std::vector<std::pair<Id, Id>> list = w.waiting[{j, s, last.type}];
-    w.waiting.erase({j, s, last.type});
+    const std::vector<std::pair<Id, Id>> list = w.waiting[{j, s, type}];
+    w.waiting.erase({j, s, type});
     for (const auto& [i, d] : list) {
       relation(w, i, j, s).waiting.erase(d);
       note_notified(w, i, j, s, d);
@@ -103,7 +104,18 @@ void take(World& w, Id j, const Sample& sample) {
   if (sample.is_about_dependencies && !w.makes(Mistake::one_question)) {
     return ask_for_type(w, sample);
   }
-  learn(w, j, sample);
+  for (const std::string& type : sample.types) learn(w, j, sample, type);
+  w.participants.at(j).asked.erase(sample.from);
+  ask_for_all(w, j, sample.from);
+}
+
+void ask(World& w, Id j, Id i, int s, const std::vector<std::string>& types) {
+  Sample question;
+  question.from = j;
+  question.to = i;
+  question.stream = s;
+  question.types = types;
+  queue_sample(w, question);
 }
 
 }  // namespace
@@ -115,8 +127,11 @@ bool asks_for_types(const World& w) {
 }
 
 std::int64_t sample_bytes(const World& w, const Sample& sample) {
-  if (sample.is_about_dependencies) return sample.is_question ? 156 : 96;
-  return sample.is_question ? 148 : w.scenario.dds.version.type_object_bytes.count();
+  const auto others = static_cast<std::int64_t>(sample.types.size()) - 1;
+  if (sample.is_question) return (sample.is_about_dependencies ? 156 : 148) + 16 * others;
+  if (sample.is_about_dependencies) return 96;
+  const std::int64_t object = w.scenario.dds.version.type_object_bytes.count();
+  return object > 96 ? object + others * (object - 96) : object;
 }
 
 void hand_over(World& w, Id i, Id j, int s, Id d) {
@@ -127,13 +142,31 @@ void hand_over(World& w, Id i, Id j, int s, Id d) {
   std::vector<std::pair<Id, Id>>& list = w.waiting[{j, s, type}];
   list.emplace_back(i, d);
   relation(w, i, j, s).waiting.insert(d);
-  if (list.size() > 1 && !w.makes(Mistake::everybody_is_asked)) return;
-  Sample question;
-  question.from = j;
-  question.to = i;
-  question.stream = s;
-  question.type = type;
-  queue_sample(w, question);
+  const model::LookupUnit unit = w.scenario.dds.version.typelookup_unit;
+  if (unit == model::LookupUnit::participant) return;
+  const bool together = unit == model::LookupUnit::type && !w.makes(Mistake::streams_ask_apart);
+  const bool is_asked =
+      list.size() > 1 || (together && !w.waiting[{j, pub + sub - s, type}].empty());
+  if (!is_asked || w.makes(Mistake::everybody_is_asked)) ask(w, j, i, s, {type});
+}
+
+void ask_for_all(World& w, Id j, Id i) {
+  if (!asks_for_types(w)) return;
+  if (w.scenario.dds.version.typelookup_unit != model::LookupUnit::participant) return;
+  std::set<Id>& asked = w.participants.at(j).asked;
+  if (asked.contains(i) && !w.makes(Mistake::asks_without_answer)) return;
+  std::vector<std::string> types;
+  for (const int s : {pub, sub}) {
+    for (const Id d : relation(w, i, j, s).waiting) {
+      const std::string type = type_of(w, i, s, d);
+      const bool is_first = w.waiting[{j, s, type}].front() == std::pair{i, d};
+      const bool is_new = std::find(types.begin(), types.end(), type) == types.end();
+      if ((is_first || w.makes(Mistake::everybody_is_asked)) && is_new) types.push_back(type);
+    }
+  }
+  if (types.empty()) return;
+  asked.insert(i);
+  ask(w, j, i, pub, types);
 }
 
 void receive_samples(World& w, const Packet& packet) {
@@ -159,7 +192,10 @@ void arm_lookups(World& w, Id i, int topic) {
 void lookup_expiry(World& w, Id i, int topic) {
   Writer& wr = writer(w, i, topic);
   wr.expiry_pending = false;
-  const auto lacks = [&](Id j) { return control(w, i, j, topic).low < wr.existing; };
+  const auto lacks = [&](Id j) {
+    const Control& c = control(w, i, j, topic);
+    return c.low < (w.makes(Mistake::filtered_samples_lack) ? wr.existing : c.told);
+  };
   if (!std::any_of(wr.readers.begin(), wr.readers.end(), lacks)) return;
   const std::int64_t payload = wr.readers.size() == 1 ? heartbeat_payload : heartbeat_to_several;
   for (const Id j : wr.readers) {

@@ -188,13 +188,17 @@ void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& des
   charge_added(w, sending, s, submessage_bytes(w, s, d));
 }
 
-/// A sample goes to all readers, though one is meant.
+/// A sample goes to all readers, though one is meant; unless it is filtered.
 void deliver(World& w, Sending& sending, Sample sample) {
   const int topic = sample.is_question ? questions : answers;
   Writer& wr = writer(w, sending.i, topic);
   const std::int64_t bytes = timestamp_bytes + sample_bytes(w, sample);
   std::vector<Id> destinations = wr.readers;
-  if (w.makes(Mistake::samples_to_addressee)) destinations = {sample.to};
+  using enum model::LookupFilter;
+  const model::LookupFilter filter = w.scenario.dds.version.typelookup_filter;
+  const bool filters_questions = filter == all || w.makes(Mistake::questions_filtered);
+  const bool to_one = filter != none && (filters_questions || !sample.is_question);
+  if (to_one || w.makes(Mistake::samples_to_addressee)) destinations = {sample.to};
   const std::optional<Message>& open = sending.open;
   if (open && (open->stream != topic || open->destinations != destinations ||
                open->bytes + bytes > w.sedp.grouping_limit_bytes.count())) {
@@ -204,7 +208,10 @@ void deliver(World& w, Sending& sending, Sample sample) {
   sample.number = ++wr.existing;
   sending.open->samples.push_back(sample);
   sending.open->bytes += bytes;
-  for (const Id j : destinations) w.outcome.lookup += cross_host(w, sending.i, j) ? 1 : 0;
+  for (const Id j : destinations) {
+    w.outcome.lookup += cross_host(w, sending.i, j) ? 1 : 0;
+    control(w, sending.i, j, topic).told = sample.number;
+  }
   if (!w.makes(Mistake::samples_do_not_arm)) arm_lookups(w, sending.i, topic);
   charge_added(w, sending, topic, sample_bytes(w, sample));
 }

@@ -39,6 +39,7 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
   take_data(w, r, packet, j);
   if (w.ended) return;
   notify_in_order(w, r, i, j, s);
+  ask_for_all(w, j, i);
   if (w.server) {
     std::vector<Id> fresh;
     for (Id d = 0; d < before.size(); ++d) {

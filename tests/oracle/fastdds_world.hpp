@@ -119,7 +119,7 @@ struct Sample {
   bool is_question = true;
   bool is_about_dependencies = true;  // otherwise about the type itself
   int stream = 0;                     // of the descriptor that the chain began with
-  std::string type;
+  std::vector<std::string> types;     // one, or all that are asked for at once
 };
 
 struct Packet {
@@ -205,6 +205,7 @@ struct Control {
   // reader has got.
   Id low = 0;
   Id got = 0;
+  Id told = 0;  // the last one that went to the reader
 };
 
 /// The message that a creation or an async run fills.
@@ -234,6 +235,7 @@ struct Participant {
   std::deque<std::pair<int, Id>> async_queue;  // (stream, descriptor)
   std::deque<Sample> samples;                  // the same, before descriptors
   std::set<std::string> looked_up;             // types
+  std::set<Id> asked;                          // for all its types, and has not answered
   bool run_pending = false;
   std::int64_t sent_bytes = 0;  // of the cumulative piggyback charge
   std::int64_t group_bytes = 0;
@@ -524,6 +526,7 @@ void async_run(World& w, Id i);
 [[nodiscard]] bool asks_for_types(const World& w);
 [[nodiscard]] std::int64_t sample_bytes(const World& w, const Sample& sample);
 void hand_over(World& w, Id i, Id j, int s, Id d);
+void ask_for_all(World& w, Id j, Id i);
 void receive_samples(World& w, const Packet& packet);
 void arm_lookups(World& w, Id i, int topic);
 void lookup_expiry(World& w, Id i, int topic);

@@ -162,6 +162,10 @@ enum class FastddsMistake : std::uint8_t {
   low_is_zero_at_match,          ///< a new reader lacks all samples
   initial_arms_no_lookups,       ///< an initial ACKNACK arms nothing
   expiry_of_lookups_to_lacking,  ///< an expiry goes to readers that lack samples
+  questions_filtered,            ///< a filter of answers filters questions, too
+  filtered_samples_lack,         ///< a reader lacks what did not go to it
+  streams_ask_apart,             ///< a type is asked for by either stream, whatever the unit
+  asks_without_answer,           ///< a participant is asked again though it has not answered
 };
 
 /// What the oracle of the Wi-Fi channel does wrong (specs/guide/wifi.md has the rules): units,
@@ -344,7 +348,7 @@ inline constexpr std::size_t mistake_count =
 inline constexpr std::size_t first_mistake_of_life =
     static_cast<std::size_t>(Mistake::lease_not_renewed);
 inline constexpr std::size_t fastdds_mistake_count =
-    static_cast<std::size_t>(FastddsMistake::expiry_of_lookups_to_lacking) + 1;
+    static_cast<std::size_t>(FastddsMistake::asks_without_answer) + 1;
 /// From this one on they are about the life of participants.
 inline constexpr std::size_t first_fastdds_mistake_of_life =
     static_cast<std::size_t>(FastddsMistake::lease_not_renewed);

@@ -48,12 +48,17 @@ bool piggybacks_on_everything(const Dds& dds) {
   return !has_no_piggyback(dds) && dds.sedp.piggyback != model::Piggyback::group &&
          dds.sedp.piggyback_threshold_bytes == model::Bytes{0};
 }
+bool asks_for_no_types(const Dds& dds) { return dds.version.type_lookup == model::Whether::no; }
 bool has_no_default_descriptors(const Dds& dds) {
   const auto& [publications, subscriptions, bytes, user_bytes] = dds.descriptors;
   return publications == 0 && subscriptions == 0;
 }
 
 // One knob of a section from one profile to another.
+template <auto Member>
+void set_version(Dds& to, const Dds& from) {
+  to.version.*Member = from.version.*Member;
+}
 template <auto Member>
 void set_spdp(Dds& to, const Dds& from) {
   to.spdp.*Member = from.spdp.*Member;
@@ -79,14 +84,20 @@ void set_cumulative(Dds& to, const Dds&) { to.sedp.piggyback = model::Piggyback:
 
 constexpr std::string_view built_in{};
 constexpr std::string_view with_periodic = "with heartbeat_policy: periodic there are no cycles";
+constexpr std::string_view without_questions = "with type_lookup: false nobody asks for types";
 constexpr std::string_view without_piggyback = "with piggyback: off no DATA carries a HEARTBEAT";
 
+using Version = model::VersionProfile;
 using Spdp = model::SpdpProfile;
 using Sedp = model::SedpProfile;
 using Adaptive = model::AdaptiveProfile;
 using Descriptors = model::DescriptorProfile;
 
 constexpr UnreadRule rules[] = {
+    {"typelookup_filter", asks_for_no_types, set_version<&Version::typelookup_filter>,
+     without_questions},
+    {"typelookup_unit", asks_for_no_types, set_version<&Version::typelookup_unit>,
+     without_questions},
     {"spdp.startup_period", has_no_startup, set_spdp<&Spdp::startup_period>,
      "with startup_announcements: 0 the period after the first announcement is spdp.period"},
     {"spdp.payload_bytes", has_fixed_sizes, set_spdp<&Spdp::payload_bytes>, built_in},

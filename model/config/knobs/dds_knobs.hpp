@@ -73,6 +73,11 @@ template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MatchOrder>{"endpoints_first",
                                                                         "builtin_first"};
 template <>
+inline constexpr std::array<std::string_view, 3> enum_names<LookupFilter>{"none", "answers", "all"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<LookupUnit>{"type_and_stream", "type",
+                                                                        "participant"};
+template <>
 inline constexpr std::array<std::string_view, 3> enum_names<SizesSince>{"v2.6", "v3.2", "v3.6"};
 
 /// Sizes of packets and of their parts.
@@ -440,6 +445,16 @@ constexpr void visit_knobs(auto& visit, Is<VersionProfile> auto& version,
   visit.knob("typelookup_heartbeat_period", version.typelookup_heartbeat_period,
              usually(period_range, 350'000'000),
              "periodic HEARTBEAT of what asks for types and answers (tau_L); 350ms if absent",
+             optional);
+  visit.knob("typelookup_filter", version.typelookup_filter,
+             UsualChoiceType<LookupFilter>{{}, LookupFilter::none},
+             "which questions and answers about types go only to whom they are for, instead of to "
+             "every participant: none, answers, or all; none if absent (no version has another)",
+             optional);
+  visit.knob("typelookup_unit", version.typelookup_unit,
+             UsualChoiceType<LookupUnit>{{}, LookupUnit::type_and_stream},
+             "what there is one question for: a type of a stream, a type, or all types of a "
+             "participant that wait; type_and_stream if absent (no version has another)",
              optional);
   visit.knob("type_object_bytes", version.type_object_bytes, usually(byte_range(1, 65'000), 300),
              "DATA submessage that answers with a type; 300 if absent", optional);

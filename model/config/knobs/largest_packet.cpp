@@ -7,6 +7,7 @@
 #include "model/cyclone/endpoints.hpp"
 #include "model/descriptor_sizes.hpp"
 #include "model/fastdds/endpoints.hpp"
+#include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::model::config {
@@ -43,13 +44,18 @@ LargestPacket largest_of(Of<fsm::composition::paper::Paper>, const Scenario& sce
 
 LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario& scenario) {
   const DdsProfile dds = fastdds::deployed_profile(scenario);
-  const std::int64_t sample = scenario.deployment.types ? fastdds::largest_sample_bytes(dds) : 0;
+  const auto& types = scenario.deployment.types;
+  const bool asks_for_all = dds.version.typelookup_unit == LookupUnit::participant;
+  const std::int64_t sample =
+      types ? fastdds::largest_sample_bytes(dds, asks_for_all ? fastdds::most_types(*types) : 1)
+            : 0;
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
                              fastdds::timestamp_bytes +
                              std::max(fastdds::largest_submessage_bytes(dds), sample);
-  const std::int64_t message = std::max(dds.sedp.grouping_limit_bytes.count(), alone);
-  return {Bytes{message + fastdds::heartbeat_submessage_bytes} + dds.version.statistics_bytes,
-          "dds.sedp.grouping_limit_bytes"};
+  const std::int64_t limit = dds.sedp.grouping_limit_bytes.count();
+  return {Bytes{std::max(limit, alone) + fastdds::heartbeat_submessage_bytes} +
+              dds.version.statistics_bytes,
+          sample > limit ? "dds.type_object_bytes" : "dds.sedp.grouping_limit_bytes"};
 }
 
 /// Those of a client; the server sends one descriptor at a time.

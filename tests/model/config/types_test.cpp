@@ -45,6 +45,14 @@ TEST(Types, OfMoreEndpointsThanThereAreAreRefused) {
       << refused({"deployment.types.unknown_per_participant=33"});
 }
 
+TEST(Types, OfAParticipantThatDoNotFitIntoOneAnswerAreRefused) {
+  const std::vector<std::string> large{four, "dds.type_object_bytes=9000"};
+  EXPECT_TRUE(read(large));
+  std::vector<std::string> at_once = large;
+  at_once.push_back("dds.typelookup_unit=participant");
+  EXPECT_NE(refused(at_once).find("dds.type_object_bytes"), std::string::npos) << refused(at_once);
+}
+
 TEST(Types, AreRefusedWhereNoRuleSaysWhatHappens) {
   for (const std::vector<std::string>& others :
        std::vector<std::vector<std::string>>{{"dds.discovery=server"},

@@ -162,6 +162,82 @@ TEST(FastddsLookups, TypesAreCommonButForTheFirstOnesOfTheList) {
   EXPECT_FALSE(own.contains(types.of(0, Stream::pub, 0)));
 }
 
+/// Two hosts with two participants each that begin at once, know each other before they ask, and
+/// have `unknown` types each that the others lack.
+Scenario all_at_once(std::uint32_t unknown) {
+  Scenario scenario = one_writer();
+  scenario.deployment = Deployment::homogeneous(2, 2, 3);
+  scenario.dds.version.type_lookup = Whether::yes;
+  scenario.deployment.types = EndpointTypes{unknown};
+  scenario.time_limit = Nanoseconds{2'000 * ms};
+  scenario.run_until = RunUntil::time_limit;
+  return scenario;
+}
+std::uint64_t lookups(Scenario scenario, LookupFilter filter, LookupUnit unit) {
+  scenario.dds.version.typelookup_filter = filter;
+  scenario.dds.version.typelookup_unit = unit;
+  const RunResult result = simulate(scenario);
+  EXPECT_TRUE(result.completed());
+  return result.counts.lookup;
+}
+
+/// Of N participants, N_P of each host, with U such types.
+TEST(FastddsLookups, AFilterSendsASampleToWhomItIsFor) {
+  constexpr std::uint64_t n = 4;
+  constexpr std::uint64_t n_p = 2;
+  for (const std::uint32_t u : {1U, 3U}) {
+    const std::uint64_t questions_to_all = 2 * n * (n - 1) * u * n_p;
+    const std::uint64_t answers_across = 2 * u * 2 * n_p * n_p;
+    constexpr LookupUnit each = LookupUnit::type_and_stream;
+    EXPECT_EQ(lookups(all_at_once(u), LookupFilter::none, each), 2 * questions_to_all);
+    EXPECT_EQ(lookups(all_at_once(u), LookupFilter::answers, each),
+              questions_to_all + answers_across);
+    EXPECT_EQ(lookups(all_at_once(u), LookupFilter::all, each), 2 * answers_across);
+  }
+}
+
+/// Publications and subscriptions come apart, so there are up to two questions for a participant:
+/// the second one waits until the first is answered.
+TEST(FastddsLookups, OneQuestionIsForAllTypesThatWait) {
+  constexpr LookupUnit all = LookupUnit::participant;
+  const std::uint64_t one_chain = lookups(all_at_once(1), LookupFilter::none, all);
+  EXPECT_EQ(one_chain, 4 * 4 * 3 * 2U);
+  for (const std::uint32_t u : {2U, 12U}) {
+    const std::uint64_t asked = lookups(all_at_once(u), LookupFilter::none, all);
+    EXPECT_GE(asked, one_chain) << u;
+    EXPECT_LE(asked, 2 * one_chain) << u;
+  }
+}
+
+/// One participant asks once the other has announced all of its endpoints.
+TEST(FastddsLookups, AQuestionForSeveralTypesIsLarger) {
+  Scenario scenario = late_user_endpoints();
+  scenario.deployment.types = EndpointTypes{11};  // sub1 to sub6, pub2 to pub6
+  scenario.dds.version.typelookup_unit = LookupUnit::participant;
+  scenario.time_limit = Nanoseconds{200 * ms};
+  const RunLog log = run_and_log(scenario);
+  std::vector<std::int64_t> bytes;
+  for (const Sent& sent : log.sent) {
+    if (sent.kind == PacketKind::lookup) bytes.push_back(sent.payload_bytes);
+  }
+  const auto sent = [&](std::int64_t size) {
+    return std::ranges::find(bytes, size) != bytes.end();
+  };
+  EXPECT_TRUE(sent(20 + 16 + 12 + 156 + 16 * 5)) << testing::PrintToString(bytes);
+  EXPECT_TRUE(sent(20 + 16 + 12 + 148 + 16 * 5)) << testing::PrintToString(bytes);
+  EXPECT_TRUE(sent(20 + 16 + 12 + 300 + 204 * 5)) << testing::PrintToString(bytes);
+}
+
+TEST(FastddsLookups, ATypeOfBothStreamsIsAskedForOnceIfThatIsTheUnit) {
+  Scenario scenario = late_user_endpoints();
+  scenario.time_limit = Nanoseconds{200 * ms};
+  scenario.run_until = RunUntil::time_limit;
+  const std::uint64_t of_streams =
+      lookups(scenario, LookupFilter::none, LookupUnit::type_and_stream);
+  const std::uint64_t of_types = lookups(scenario, LookupFilter::none, LookupUnit::type);
+  EXPECT_EQ(of_streams - of_types, 4U);  // user topics: one chain less
+}
+
 TEST(FastddsLookups, SwitchedOffEveryTypeIsKnown) {
   Scenario scenario = late_user_endpoints();
   scenario.dds.version.type_lookup = Whether::no;

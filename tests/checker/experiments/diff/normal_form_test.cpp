@@ -62,7 +62,10 @@ Scenario drawn(std::uint64_t seed) {
 DdsProfile other_values(std::uint64_t seed) {
   props::ScenarioSpace space;
   space.implementation = ImplementationKind::paper;
-  return props::draw_scenario(seed + 1'000'000, 50, space).dds;
+  DdsProfile dds = props::draw_scenario(seed + 1'000'000, 50, space).dds;
+  dds.version.typelookup_filter = model::LookupFilter::answers;
+  dds.version.typelookup_unit = model::LookupUnit::participant;
+  return dds;
 }
 
 Scenario with(const Scenario& scenario, const DdsProfile& dds) {

@@ -81,12 +81,13 @@ TEST(KnobList, fast_dds_has_the_same_list_with_the_keys_of_the_paper_marked) {
     return key.starts_with("dds.amendments.");
   };
   EXPECT_GT(std::erase_if(of_paper, is_amendment), 0U);
-  EXPECT_EQ(keys_beyond(ImplementationKind::fastdds, ImplementationKind::paper),
-            (std::set<std::string>{
-                "dds.discovery", "dds.max_participants_per_host", "dds.spdp.lease",
-                "dds.match_order", "dds.builtin_response_delay", "dds.type_lookup",
-                "dds.typelookup_heartbeat_period", "dds.type_object_bytes", "dds.sizes",
-                "dds.descriptor_extra_bytes", "dds.statistics_bytes", "dds.max_data_per_message"}));
+  EXPECT_EQ(
+      keys_beyond(ImplementationKind::fastdds, ImplementationKind::paper),
+      (std::set<std::string>{
+          "dds.discovery", "dds.max_participants_per_host", "dds.spdp.lease", "dds.match_order",
+          "dds.builtin_response_delay", "dds.type_lookup", "dds.typelookup_heartbeat_period",
+          "dds.typelookup_filter", "dds.typelookup_unit", "dds.type_object_bytes", "dds.sizes",
+          "dds.descriptor_extra_bytes", "dds.statistics_bytes", "dds.max_data_per_message"}));
   EXPECT_EQ(of_paper,
             (std::set<std::string>{
                 "dds.spdp.payload_bytes", "dds.sedp.relation_opening", "dds.sedp.initial_data",
