@@ -132,7 +132,7 @@ void declare(Options& options, InitArguments& arguments) {
       .within(0, 100'000);
   options
       .number("--unknown-types", arguments.types,
-              "Fast DDS 3: message types of a process that others do not have (default 14, as in "
+              "Fast DDS 3: message types of a process that others do not have (default 12, as in "
               "Nav2)",
               "N")
       .within(0, 100'000);

@@ -90,7 +90,6 @@ void open_control_writer(World& w, Id i, Id j, int topic) {
   if (is_lookup(topic)) {
     Writer& wr = writer(w, i, topic);
     wr.readers.push_back(j);
-    if (!w.makes(Mistake::low_is_zero_at_match)) control(w, i, j, topic).low = wr.existing;
     wr.budget = w.sedp.piggyback_threshold_bytes.count();
   }
   send(w, PacketKind::control_heartbeat, i, j, topic, false);

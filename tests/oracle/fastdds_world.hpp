@@ -205,7 +205,7 @@ struct Control {
   // reader has got.
   Id low = 0;
   Id got = 0;
-  Id told = 0;  // the last one that went to the reader
+  Id told = 0;  // and the last one that went to the reader
 };
 
 /// The message that a creation or an async run fills.

@@ -159,7 +159,6 @@ enum class FastddsMistake : std::uint8_t {
   samples_do_not_arm,            ///< no HEARTBEAT follows samples by itself
   samples_not_got,               ///< only a HEARTBEAT says what is acknowledged
   heartbeats_give_nothing,       ///< or only samples do
-  low_is_zero_at_match,          ///< a new reader lacks all samples
   initial_arms_no_lookups,       ///< an initial ACKNACK arms nothing
   expiry_of_lookups_to_lacking,  ///< an expiry goes to readers that lack samples
   questions_filtered,            ///< a filter of answers filters questions, too

@@ -65,8 +65,7 @@ std::int64_t PiggybackBudget::before_message() const {
 std::int64_t PiggybackBudget::most_in_group(std::size_t event) const {
   const auto of_lookups = lookups_.most_before(event);
   if (!of_lookups) return INT64_MAX;
-  const bool is_within = message_ < messages_.size() && part_ > 0;
-  return before_message() + *of_lookups + (is_within ? messages_[message_].payload_bytes : 0);
+  return before_message() + *of_lookups;
 }
 
 std::int64_t PiggybackBudget::least_number() const {

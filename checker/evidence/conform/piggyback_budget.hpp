@@ -6,8 +6,9 @@
 //
 // With `piggyback: group` a participant counts the bytes of what it has sent for requests, its
 // questions and answers about types among them, and a writer has used up what exceeds the
-// threshold since it last looked: at its last DATA, with or without a HEARTBEAT. What it pushes
-// makes it look anew, from the beginning.
+// threshold since it last looked: at its last DATA, with or without a HEARTBEAT. A message counts
+// once it has left, so not for what rides in it. What it pushes makes it look anew, from the
+// beginning.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,6 @@
 #include "model/config/tree/yaml_text.hpp"
 #include "model/config/vendor/reference.hpp"
 #include "model/fastdds/endpoints.hpp"
-#include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::init {
@@ -145,18 +144,13 @@ std::string schedule(const System& system, bool creates_over_time) {
 /// a Discovery Server and with losses.
 std::string types(const System& system, const model::DdsProfile& dds) {
   if (!model::fastdds::looks_up_types(dds) || model::traits_of(dds).has_server) return {};
-  model::Participant one{};
-  one.publications = system.endpoints;
-  const std::uint64_t most = model::fastdds::endpoints_with_own_types(one);
-  const bool is_given = system.unknown_types.has_value();
-  const std::uint64_t unknown =
-      is_given ? *system.unknown_types : std::min<std::uint64_t>(usual_unknown_types, most);
   return fmt::format(
       "  types: {{unknown_per_participant: {}}}  # {} message types of a process that another "
       "lacks\n"
       "                                    # and asks for; none: fastdds.type_propagation =\n"
       "                                    # registration_only, which is dds.type_lookup=false\n",
-      unknown, is_given ? "given:" : "assumed, as in Nav2:");
+      system.unknown_types.value_or(usual_unknown_types),
+      system.unknown_types ? "given:" : "assumed, as in Nav2:");
 }
 
 std::string head(const System& system) {

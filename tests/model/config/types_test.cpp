@@ -50,7 +50,8 @@ TEST(Types, OfAParticipantThatDoNotFitIntoOneAnswerAreRefused) {
   EXPECT_TRUE(read(large));
   std::vector<std::string> at_once = large;
   at_once.push_back("dds.typelookup_unit=participant");
-  EXPECT_NE(refused(at_once).find("dds.type_object_bytes"), std::string::npos) << refused(at_once);
+  EXPECT_NE(refused(at_once).find("dds.typelookup_unit: 'participant'"), std::string::npos)
+      << refused(at_once);
 }
 
 TEST(Types, AreRefusedWhereNoRuleSaysWhatHappens) {

@@ -235,7 +235,7 @@ TEST(FastddsLookups, ATypeOfBothStreamsIsAskedForOnceIfThatIsTheUnit) {
   const std::uint64_t of_streams =
       lookups(scenario, LookupFilter::none, LookupUnit::type_and_stream);
   const std::uint64_t of_types = lookups(scenario, LookupFilter::none, LookupUnit::type);
-  EXPECT_EQ(of_streams - of_types, 4U);  // user topics: one chain less
+  EXPECT_EQ(of_streams - of_types, 2 * 4U);  // parameter_events and user topics
 }
 
 TEST(FastddsLookups, SwitchedOffEveryTypeIsKnown) {

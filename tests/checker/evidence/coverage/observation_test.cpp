@@ -110,6 +110,19 @@ TEST(Observations, StrictCompletionIsAnotherField) {
   EXPECT_EQ(value(strict->rows[0], Measure::completion), 8);
 }
 
+TEST(Observations, CountsUntilTheStrictCompletionMayStandApart) {
+  const std::string row =
+      R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"T_strict_ms":12,"counts":{"init":38,"total":50})"
+      R"(,"at_strict":{"total":70}})";
+  EXPECT_EQ(value(read_text(row)->rows[0], Measure::messages), 50);
+  const auto strict = read_text(row, {CompletionTime::strict, {}});
+  EXPECT_EQ(value(strict->rows[0], Measure::messages), 70);
+  EXPECT_FALSE(value(strict->rows[0], Measure::initial_data));
+  const std::string wrong =
+      R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"T_strict_ms":12,"at_strict":7})";
+  EXPECT_NE(error_of(wrong, {CompletionTime::strict, {}}).find("at_strict"), std::string::npos);
+}
+
 TEST(Observations, SelectsByAnyField) {
   const std::string text = R"({"N_H":2,"N_P":1,"N_E":2,"T_app_ms":9,"lab":"a"})"
                            "\n\n"

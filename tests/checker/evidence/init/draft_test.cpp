@@ -114,6 +114,7 @@ TEST(Draft, SaysHowManyTypesOthersDoNotHave) {
   EXPECT_EQ(types(system), model::EndpointTypes{0});
   system.unknown_types.reset();
   system.endpoints = 1;
+  system.unknown_types = 13;
   EXPECT_EQ(types(system), model::EndpointTypes{13}) << "12 of services and its own";
   system.unknown_types = 14;
   EXPECT_FALSE(draft(system, specs()));
