@@ -108,8 +108,13 @@ std::optional<model::DdsProfile> with_reverted(const model::DdsProfile& candidat
   const Json original = config::effective_json(base);
   for (const std::string& key : keys) {
     const Json::json_pointer at = pointer_of(key);
-    if (!original.contains(at)) return std::nullopt;
-    changed[at] = original[at];
+    if (original.contains(at)) {
+      changed[at] = original[at];
+    } else if (changed.contains(at)) {  // as if nothing is said of it
+      changed[at.parent_pointer()].erase(at.back());
+    } else {
+      return std::nullopt;
+    }
   }
   const auto tree = config::parse_yaml(changed.dump(), "profile");
   if (!tree) return std::nullopt;

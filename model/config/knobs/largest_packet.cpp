@@ -52,10 +52,9 @@ LargestPacket largest_of(Of<fsm::composition::fastdds::FastDds>, const Scenario&
   const std::int64_t alone = fastdds::message_header_bytes + fastdds::destination_bytes +
                              fastdds::timestamp_bytes +
                              std::max(fastdds::largest_submessage_bytes(dds), sample);
-  const std::int64_t limit = dds.sedp.grouping_limit_bytes.count();
-  return {Bytes{std::max(limit, alone) + fastdds::heartbeat_submessage_bytes} +
-              dds.version.statistics_bytes,
-          sample > limit ? "dds.type_object_bytes" : "dds.sedp.grouping_limit_bytes"};
+  const std::int64_t message = std::max(dds.sedp.grouping_limit_bytes.count(), alone);
+  return {Bytes{message + fastdds::heartbeat_submessage_bytes} + dds.version.statistics_bytes,
+          "dds.sedp.grouping_limit_bytes"};
 }
 
 /// Those of a client; the server sends one descriptor at a time.

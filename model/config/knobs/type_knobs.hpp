@@ -8,6 +8,7 @@
 
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
+#include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 #include "model/scenario.hpp"
@@ -15,6 +16,8 @@
 namespace stormproof::model::config {
 
 inline constexpr std::string_view types_key = "deployment.types";
+/// A DATA submessage with questions or answers has no more: it is never split.
+inline constexpr std::int64_t most_sample_bytes = 65'000;
 
 void visit_knobs(auto& visit, Is<EndpointTypes> auto& types) {
   visit.knob("unknown_per_participant", types.unknown_per_participant,
@@ -43,6 +46,14 @@ void visit_types(auto& visit, Is<Scenario> auto& scenario) {
              "vary.restarts)");
   visit.rule(loses_nothing(scenario), types_key,
              "no types where packets are lost (wireless.lost_packets, wireless.loss, vary.loss)");
+  const std::size_t all = fastdds::most_types(*scenario.deployment.types);
+  const std::int64_t bytes = fastdds::largest_sample_bytes(scenario.dds, all);
+  visit.rule(
+      scenario.dds.version.typelookup_unit != LookupUnit::participant || bytes <= most_sample_bytes,
+      "dds.typelookup_unit",
+      fmt::format("type_and_stream or type: an answer about {} types would have {} bytes, "
+                  "more than {}",
+                  all, bytes, most_sample_bytes));
   std::uint64_t most = Deployment::max_endpoints;
   for (const Participant& participant : scenario.deployment.participants) {
     most = std::min(most, fastdds::endpoints_with_own_types(participant));

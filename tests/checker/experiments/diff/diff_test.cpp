@@ -96,6 +96,59 @@ TEST(Diff, SlowerRepliesRegress) {
   EXPECT_EQ(reverse.judgment, Judgment::better);
 }
 
+constexpr const char* grid_with_types = R"(
+base:
+  deployment:
+    hosts: 2
+    participants_per_host: 3
+    endpoints_per_participant: 20
+    loopback_delay: 2ms
+    schedule: {start: [3ms, 36ms], endpoints_done: [30ms, 70ms], seed: 0}
+  dds: fastdds-3.6
+  wireless: emulated-ap
+  time_limit: 60s
+grid:
+  deployment.types.unknown_per_participant: [0, 12]
+)";
+
+/// Jazzy's version asks for no types. Lyrical's takes as long where all know all of them.
+TEST(Diff, AnUpgradeIsWorseForThoseWhoseTypesOthersLack) {
+  DiffRequest asked = request(profile("jazzy"), profile("lyrical"));
+  asked.grid = written("diff-types.yaml", grid_with_types);
+  const DiffReport upgrade = compared(asked);
+  EXPECT_EQ(upgrade.judgment, Judgment::regression);
+  ASSERT_EQ(upgrade.costs.configurations.size(), 2U);
+  const Configuration& known = upgrade.costs.configurations[0];
+  const Configuration& unknown = upgrade.costs.configurations[1];
+  EXPECT_NE(known[Measure::completion].judgment, Judgment::regression);
+  EXPECT_EQ(unknown[Measure::completion].judgment, Judgment::regression);
+  EXPECT_GT(unknown[Measure::completion].shift->low, 0);
+  ASSERT_TRUE(upgrade.blame);
+  EXPECT_EQ(upgrade.blame->configuration, unknown.name);
+  const auto lookups = std::ranges::find(
+      upgrade.blame->entries, std::vector<std::string>{"type_lookup"}, &Blame::Entry::reverted);
+  ASSERT_NE(lookups, upgrade.blame->entries.end());
+  EXPECT_TRUE(lookups->cures);
+}
+
+/// Clients of version 3.6 are told everything, those of 2.14.5 what they match.
+TEST(Diff, AnUpgradeWithAServerCostsMessages) {
+  DiffRequest asked = request(profile("fastdds-server-2.14.5"), profile("fastdds-server-3.6"));
+  const DiffReport upgrade = compared(asked);
+  EXPECT_EQ(upgrade.judgment, Judgment::regression);
+  for (const Configuration& configuration : upgrade.costs.configurations) {
+    EXPECT_EQ(configuration[Measure::messages].judgment, Judgment::regression)
+        << configuration.name;
+    EXPECT_NE(configuration[Measure::completion].judgment, Judgment::regression)
+        << configuration.name;
+  }
+  // Nothing says how types are looked up through a server.
+  asked.grid = written("diff-server-types.yaml", grid_with_types);
+  const auto refused = diff(asked, specs);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(to_string(refused.error()).find("deployment.types"), std::string::npos);
+}
+
 TEST(Diff, TheAnswerDoesNotDependOnThreads) {
   DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
   asked.samples = 3;
@@ -187,6 +240,11 @@ TEST(Blame, SetsSingleKnobsBack) {
   EXPECT_EQ(all->sedp, base.sedp);
   EXPECT_FALSE(with_reverted(candidate, profile("paper").value, {"spdp.resend"}));
   EXPECT_FALSE(with_reverted(candidate, base, {"sedp.no_such_key"}));
+  // What the base does not say is as if nobody said it.
+  const auto asks = with_reverted(profile("fastdds-3.6").value, candidate, {"type_lookup"});
+  ASSERT_TRUE(asks);
+  EXPECT_EQ(asks->version.type_lookup, model::Whether::no);
+  EXPECT_EQ(asks->version.sizes, model::SizesSince::v3_6);
 }
 
 /// The error of a grid; "accepted" if there is none.
