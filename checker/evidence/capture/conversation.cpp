@@ -208,6 +208,7 @@ TopologyBuilder describe(const Reading& reading, const std::vector<std::size_t>&
 /// all count, nothing is copied: a large capture is in memory once.
 void fill(Conversation& conversation, Reading& reading, const std::vector<std::size_t>& order) {
   std::vector<Event>& events = reading.extraction.events;
+  conversation.lookups = std::move(reading.extraction.lookups);
   const bool is_all = order.size() == reading.datagrams.size();
   if (is_all && std::ranges::is_sorted(order)) {
     conversation.datagrams = std::move(reading.datagrams);

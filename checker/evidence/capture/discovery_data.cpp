@@ -145,6 +145,7 @@ std::optional<EndpointData> endpoint_data(const DataSubmessage& data, ByteOrder 
         break;
       case ParameterId::type_information:
         endpoint.has_type_information = true;
+        endpoint.type_hash = type_hash(parameter->value, parameters->order());
         break;
       default:
         read_qos(*parameter, parameters->order(), endpoint.qos);

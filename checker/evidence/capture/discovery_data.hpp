@@ -11,6 +11,7 @@
 #include "checker/evidence/capture/endpoint_qos.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
+#include "checker/evidence/capture/type_lookup.hpp"
 
 namespace stormproof::capture {
 
@@ -37,7 +38,8 @@ struct EndpointData {
   std::string type{};
   EndpointQos qos{};
   bool has_type_information = false;  ///< hashes by which its type can be looked up
-  bool is_gone = false;               ///< disposed or unregistered
+  std::optional<TypeHash> type_hash{};
+  bool is_gone = false;  ///< disposed or unregistered
 };
 
 /// Nothing if the payload is no parameter list, or breaks off.

@@ -117,6 +117,7 @@ struct Conversation {
   std::vector<DatagramRecord> datagrams{};  ///< in time order
   std::vector<Event> events{};              ///< in time order, then as in the datagram
   Topology topology{};
+  TypeLookups lookups{};  ///< what questions about types and answers say
   std::vector<Remark> remarks{};
   std::int64_t first_ns = 0;  ///< time of the first packet of all captures
   std::int64_t last_ns = 0;   ///< of the last one

@@ -89,6 +89,11 @@ class Receiver {
       if (!content.is_gone) describe_participant(*data, content);
     } else if (traffic == Traffic::sedp) {
       describe_endpoint(*data, submessage.order(), content);
+    } else if (traffic == Traffic::type_lookup) {
+      if (auto lookup = type_lookup(*data)) {
+        extraction_.lookups.try_emplace({event_.source, data->writer, data->sequence_number},
+                                        *std::move(lookup));
+      }
     }
     add(submessage, data->reader, data->writer, content);
   }

@@ -37,6 +37,7 @@ struct Extraction {
   std::set<GuidPrefix> sources{};  ///< and whom they tell of
   std::vector<Event> events{};
   std::vector<Description> descriptions{};
+  TypeLookups lookups{};
 };
 
 /// Of a message, beside its events.

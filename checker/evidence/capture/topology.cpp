@@ -116,6 +116,7 @@ void TopologyBuilder::saw_endpoint(const GuidPrefix& source, EntityId sedp_write
   if (!data.topic.empty()) endpoint.topic = data.topic;
   if (!data.type.empty()) endpoint.type = data.type;
   endpoint.has_type_information = data.has_type_information;
+  endpoint.type_hash = data.type_hash;
   if (!data.is_gone) endpoint.qos = data.qos;
 }
 

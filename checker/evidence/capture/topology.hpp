@@ -13,6 +13,7 @@
 #include "checker/evidence/capture/address.hpp"
 #include "checker/evidence/capture/discovery_data.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
+#include "checker/evidence/capture/type_lookup.hpp"
 
 namespace stormproof::capture {
 
@@ -26,6 +27,7 @@ struct Endpoint {
   std::string type{};
   EndpointQos qos{};
   bool has_type_information = false;  ///< who does not know its type can look it up
+  std::optional<TypeHash> type_hash{};
   bool is_gone = false;
 };
 

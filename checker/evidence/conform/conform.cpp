@@ -18,6 +18,7 @@
 #include "checker/evidence/conform/reader_side.hpp"
 #include "checker/evidence/conform/server.hpp"
 #include "checker/evidence/conform/to_everybody.hpp"
+#include "checker/evidence/conform/type_lookups.hpp"
 #include "checker/evidence/conform/words.hpp"
 #include "checker/evidence/conform/writer_side.hpp"
 #include "model/fastdds/endpoints.hpp"
@@ -55,6 +56,7 @@ class Check {
     for (const std::size_t k : dialogue_.strange) strange(k);
     for (const std::size_t k : dialogue_.crowded) crowded(k);
     for (const Beyond& one : dialogue_.beyond) beyond(one);
+    if (looks_up_types()) lookups();
     const std::size_t all = dialogue_.participants() + dialogue_.relations.size();
     std::size_t done = 0;
     bool goes_on = true;
@@ -188,6 +190,15 @@ class Check {
     });
   }
 
+  [[nodiscard]] bool looks_up_types() const {
+    return !is_of_cyclone_ && model::fastdds::looks_up_types(request_.dds);
+  }
+  void lookups() {
+    for (Unexplained& one : faults_of_lookups(context_)) {
+      at(one.place, [&](Ledger&) { return std::optional{std::move(one)}; });
+    }
+  }
+
   /// DATA in a message that holds as many as one may; the first of each relation.
   void crowded(std::size_t k) {
     const capture::Event& event = request_.conversation.events[k];
@@ -296,9 +307,10 @@ class Check {
           "traffic can arm a timer or use up the piggyback budget, it is assumed to; on their own "
           "host nothing is lost");
     }
-    if (model::fastdds::looks_up_types(request_.dds)) {
+    if (looks_up_types()) {
       all.emplace_back(
-          "what endpoints say that look up types (dds.type_lookup) is allowed, and not looked at");
+          "of endpoints that look up types (dds.type_lookup) only what they say is looked at: who "
+          "asks whom about what, and who answers; not when, nor their HEARTBEATs and ACKNACKs");
     }
     for (const auto& [setting, effect] : request_.dds.unmodelled) {
       all.push_back(fmt::format("{} is not modelled: {}", setting, effect));

@@ -118,10 +118,11 @@ enum class Fault : std::uint8_t {
   initial_after_heartbeat,  ///< initial ACKNACK although a HEARTBEAT was answered before
   unanswered,               ///< received, and not answered in time (only without losses)
   other_version,            ///< another version's announcements than the profile's
+  lookup_cause,             ///< a question or an answer about types that has no cause
   number_beyond,            ///< a sequence number beyond all belief; such an event is set aside
   no_such_rule  ///< the profile has nothing that sends this (DATA_FRAG, another vendor's, …)
 };
-inline constexpr std::size_t fault_count = 25;
+inline constexpr std::size_t fault_count = 26;
 [[nodiscard]] std::string_view name_of(Fault fault);
 
 /// A relation, or a participant's own affairs if there is no destination.

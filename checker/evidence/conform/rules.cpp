@@ -106,15 +106,13 @@ constexpr std::array<Text, rule_count> rules{{
 }};
 
 constexpr std::array<std::string_view, fault_count> faults{
-    "not_announced",     "not_opened",      "announcement_extra",
-    "announcement_due",  "heartbeat_cause", "heartbeat_range",
-    "heartbeat_copies",  "heartbeat_due",   "heartbeat_count",
-    "data_cause",        "data_order",      "data_early",
-    "data_acknowledged", "gap_cause",       "acknack_cause",
-    "acknack_early",     "acknack_count",   "acknack_content",
-    "initial_early",     "initial_late",    "initial_after_heartbeat",
-    "unanswered",        "other_version",   "number_beyond",
-    "no_such_rule"};
+    "not_announced",           "not_opened",      "announcement_extra", "announcement_due",
+    "heartbeat_cause",         "heartbeat_range", "heartbeat_copies",   "heartbeat_due",
+    "heartbeat_count",         "data_cause",      "data_order",         "data_early",
+    "data_acknowledged",       "gap_cause",       "acknack_cause",      "acknack_early",
+    "acknack_count",           "acknack_content", "initial_early",      "initial_late",
+    "initial_after_heartbeat", "unanswered",      "other_version",      "lookup_cause",
+    "number_beyond",           "no_such_rule"};
 
 constexpr std::array<std::string_view, 6> kinds{"received",        "lost",       "dropped",
                                                 "still_under_way", "recognised", "timer"};

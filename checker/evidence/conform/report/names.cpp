@@ -96,6 +96,9 @@ std::string_view rule_broken_by(Fault fault) {
       return "what was received is answered in time; without losses everything is received";
     case Fault::other_version:
       return "announcements are those of a version that the profile speaks of (dds.sizes)";
+    case Fault::lookup_cause:
+      return "who lacks a type asks once for each stream whom it was told of it by, and is "
+             "answered";
     case Fault::number_beyond:
       return "descriptors are numbered from 1 on, as many as the writer has endpoints";
     case Fault::no_such_rule:
