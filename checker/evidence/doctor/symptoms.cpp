@@ -10,6 +10,7 @@
 
 #include "checker/evidence/capture/unknown_types.hpp"
 #include "checker/evidence/doctor/repairs.hpp"
+#include "checker/evidence/validate/creation_times.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -55,6 +56,42 @@ Silence find_silence(const Conversation& conversation, const Counting& counting)
   return silence;
 }
 
+/// Somebody announces itself when others have all their endpoints: it has to ask for them, and what
+/// it is answered counts towards the next HEARTBEAT to everybody.
+struct SpreadStarts {
+  std::size_t newcomers = 0;     ///< participants that came so late
+  std::int64_t took_ns = 0;      ///< from the first announcement to the last participant's
+  std::uint64_t heartbeats = 0;  ///< piggyback ones, of those who had everything by then
+};
+
+SpreadStarts find_spread_starts(const Conversation& conversation, const Counting& counting) {
+  const auto& list = conversation.topology.participants;
+  const auto created = validate::creation_times(conversation, counting.until_ns);
+  std::map<GuidPrefix, std::int64_t> until_newcomer;  // of those who had everything
+  std::set<GuidPrefix> newcomers;
+  for (const auto& [prefix, times] : created) {
+    for (const capture::Participant& other : list) {
+      if (other.first_ns <= times.last_latest || other.first_ns > counting.until_ns) continue;
+      newcomers.insert(other.prefix);
+      std::int64_t& first = until_newcomer.try_emplace(prefix, other.first_ns).first->second;
+      first = std::min(first, other.first_ns);
+    }
+  }
+  SpreadStarts found{newcomers.size()};
+  if (newcomers.empty()) return found;
+  const auto [first, last] = std::ranges::minmax(list, {}, &capture::Participant::first_ns);
+  found.took_ns = last.first_ns - first.first_ns;
+  for (const auto& [k, kind] : counting.kinds) {
+    const bool is_piggyback =
+        kind == HeartbeatKind::fan_out_piggyback || kind == HeartbeatKind::directed_piggyback;
+    const Event& event = conversation.events[k];
+    const auto since = until_newcomer.find(event.source);
+    if (!is_piggyback || !counting.classes[k] || since == until_newcomer.end()) continue;
+    if (event.time_ns >= since->second) ++found.heartbeats;
+  }
+  return found;
+}
+
 /// `value` beyond `needed`.
 std::uint64_t beyond(std::uint64_t value, std::uint64_t needed) {
   return value > needed ? value - needed : 0;
@@ -89,8 +126,19 @@ class Diagnosis {
 
   void heartbeats() {
     const std::uint64_t all = counting_.counts.heartbeat;
-    const std::uint64_t piggyback =
-        of(HeartbeatKind::fan_out_piggyback) + of(HeartbeatKind::directed_piggyback);
+    const SpreadStarts spread = find_spread_starts(conversation_, counting_);
+    const std::uint64_t piggyback = of(HeartbeatKind::fan_out_piggyback) +
+                                    of(HeartbeatKind::directed_piggyback) - spread.heartbeats;
+    add("spread_starts", spread.heartbeats,
+        fmt::format(
+            "{} of {} HEARTBEATs ({}) were sent because of DATA after somebody had come late: {} "
+            "announced themselves when others had all their endpoints, the last one {} after the "
+            "first. Who comes late asks for what is there, and each time the answers have filled "
+            "the send buffer everybody is told everything again.",
+            grouped(spread.heartbeats), grouped(all), percent_of(spread.heartbeats, all),
+            plural(spread.newcomers, "participant"),
+            report::duration(model::Nanoseconds{spread.took_ns})),
+        "all at once instead (`stormproof launch` compares), or a larger send buffer");
     add("piggyback", beyond(piggyback, needed_.heartbeat),
         fmt::format(
             "{} of {} HEARTBEATs ({}) were sent because DATA was sent: the writer announces "

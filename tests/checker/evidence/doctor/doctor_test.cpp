@@ -95,6 +95,32 @@ TEST(Doctor, NamesWhatMadeTheStorm) {
   EXPECT_GT(find(with_loss, "loss")->messages, 10U);
 }
 
+/// The same fleet at once has none.
+TEST(Doctor, NamesStartsThatAreSpread) {
+  model::Scenario scenario = conform::testing::scenario("fleet-4x2x20");
+  const Report spread = diagnosed(conform::testing::simulated(scenario).conversation);
+  EXPECT_EQ(spread.health, Health::storm);
+  EXPECT_EQ(spread.causes.front().id, "spread_starts");
+  const Cause* cause = find(spread, "spread_starts");
+  ASSERT_NE(cause, nullptr);
+  EXPECT_NE(cause->sentence.find("participants announced themselves when others"),
+            std::string::npos)
+      << cause->sentence;
+  EXPECT_NE(cause->sentence.find("the last one 700.0 ms after the first"), std::string::npos)
+      << cause->sentence;
+  const Cause* others = find(spread, "piggyback");
+  EXPECT_LE(cause->messages + (others == nullptr ? 0 : others->messages),
+            spread.counting.counts.heartbeat)
+      << "a HEARTBEAT has one cause";
+  for (model::Participant& one : scenario.deployment.participants) {
+    one.endpoints_done -= one.start;
+    one.start = {};
+  }
+  const Report at_once = diagnosed(conform::testing::simulated(scenario).conversation);
+  EXPECT_EQ(find(at_once, "spread_starts"), nullptr);
+  EXPECT_NE(find(at_once, "piggyback"), nullptr);
+}
+
 TEST(Doctor, AHealthyDiscoveryHasNothingToChange) {
   const auto conversation = shipped("fastdds2611_ap150_np1_ne2_r0");
   const Report report = diagnosed(conversation, true);
