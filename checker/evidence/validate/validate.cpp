@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
@@ -47,7 +48,8 @@ constexpr std::array<std::string_view, 4> how_hosts_are_linked{
     "deployment.loopback_delay=", "deployment.hosts=[",
     "deployment.access_points=", "deployment.wired_delay="};
 
-/// The profiles and overrides, around the captured participants.
+bool says_hosts(const std::string& set) { return set.starts_with("hosts"); }
+
 /// What participants look up, by a version that does, as far as the model has it.
 void take_types(const CapturedDeployment& deployment, model::Scenario& scenario) {
   if (!deployment.unknown_types || !model::fastdds::looks_up_types(scenario.dds)) return;
@@ -59,6 +61,8 @@ void take_types(const CapturedDeployment& deployment, model::Scenario& scenario)
   if (!model::config::is_valid(scenario)) scenario.deployment.types.reset();  // losses, a server
 }
 
+/// The profiles and overrides, around the captured participants. Whose starts are spread, programs
+/// take processor time.
 Result<model::Scenario> scenario_of(const Request& request, const CapturedDeployment& deployment,
                                     std::int64_t time_limit_s) {
   for (const std::string& set : request.overrides) {
@@ -110,6 +114,12 @@ Result<model::Scenario> scenario_of(const Request& request, const CapturedDeploy
                                      "`discovery: server` or `super_client`"};
   }
   scenario->deployment.participants = model_participants(deployment, scenario->dds.descriptors);
+  if (trials::starts_are_spread(scenario->deployment) && trials::lacks_hosts(*scenario)) {
+    const auto busy = model::config::parse_scenario(
+        text, "validate", trials::with_usual_hosts(request.overrides), specs);
+    if (!busy) return busy.error();
+    scenario->hosts = busy->hosts;
+  }
   take_types(deployment, *scenario);
   if (!model::config::is_valid(*scenario)) {
     return InputError{
@@ -250,6 +260,7 @@ Result<Report> validate(const capture::Conversation& conversation, const Request
   Report report;
   report.request = request;
   report.request.sampling.on_progress = {};
+  report.usual_hosts = scenario->hosts && std::ranges::none_of(request.overrides, says_hosts);
   report.is_drawn = is_drawn(*scenario, observation->deployment, request.sampling.loss);
   const Predicted predicted = predict(*scenario, *observation, request.sampling);
   report.wanted = predicted.wanted;

@@ -87,7 +87,8 @@ struct Report {
   std::size_t runs = 0;        ///< that finished
   std::size_t complete = 0;    ///< of these
   bool is_drawn = false;
-  std::vector<Row> rows{};                               ///< in the order of Figure
+  bool usual_hosts = false;  ///< starts are spread, and hosts are the usual ones
+  std::vector<Row> rows{};   ///< in the order of Figure
   std::vector<std::array<Band, growth_curves>> bands{};  ///< by step; empty without a run
   std::vector<Difference> differences{};
   Agreement agreement = Agreement::not_asked;

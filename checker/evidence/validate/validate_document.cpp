@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "checker/evidence/validate/validate.hpp"
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/figures.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -197,6 +198,11 @@ report::Facts head(const Report& report, const Heading& heading) {
                   report.is_drawn ? fmt::format("{} of {} runs finished, {} complete", report.runs,
                                                 report.wanted, report.complete)
                                   : "one run: nothing is left to draw"));
+  if (report.usual_hosts) {
+    facts.rows.emplace_back("hosts", fmt::format("{}, as starts are spread and --set hosts=… says "
+                                                 "nothing else",
+                                                 trials::usual_hosts));
+  }
   if (report.runs > 0) facts.rows.emplace_back("limited by", limit_text(report.limiting));
   return facts;
 }

@@ -148,6 +148,7 @@ void describe(V& v, const ReportWithHeading& shown) {
   v("missing", Missing{observation.counting});
   v("participants", observation.deployment.participants);
   v("sampling", Runs{report});
+  v("usual_hosts", report.usual_hosts);
   v("figures", figures);
   v("waited_for", WaitedFor{report.limiting});
   v("within", report.request.within);

@@ -62,6 +62,28 @@ TEST(SimulatedCapture, IsPredictedExactly) {
   EXPECT_GT(*report.of(Figure::user_control).observed, 0);
 }
 
+/// Programs take processor time where starts are spread, unless the caller says which.
+TEST(SimulatedCapture, HasTheUsualHostsWhereStartsAreSpread) {
+  EXPECT_FALSE(report_of(request("fastdds-2.6.11")).usual_hosts);
+  model::Scenario spread = scenario();
+  spread.deployment.participants[5].start = model::Nanoseconds{200'000'000};
+  spread.deployment.participants[5].endpoints_done = model::Nanoseconds{300'000'000};
+  const auto written = capture::simulated_capture(spread);
+  const auto conversation = capture::testing::conversation_in(written);
+  Request wanted = request("fastdds-2.6.11");
+  const auto usual = validate(conversation, wanted);
+  ASSERT_TRUE(usual);
+  EXPECT_TRUE(usual->usual_hosts);
+  ASSERT_TRUE(usual->scenario.hosts);
+  EXPECT_NE(report::to_text(document_of(*usual, {})).find("live-bed-processors"),
+            std::string::npos);
+  wanted.overrides.emplace_back("hosts=raspberry-pi-4");
+  const auto said = validate(conversation, wanted);
+  ASSERT_TRUE(said);
+  EXPECT_FALSE(said->usual_hosts);
+  EXPECT_EQ(said->scenario.hosts->cores, 4U);
+}
+
 /// Announcements to ports that nobody has are on the link, too.
 TEST(SimulatedCapture, IsPredictedExactlyWithStaticPeers) {
   model::Scenario with_peers = scenario();
