@@ -82,6 +82,10 @@ enum class SizesSince : std::uint8_t { v2_6, v3_2, v3_6 };
 enum class AllowMulticast : std::uint8_t { always, spdp, by_network, never };
 /// A truth value of a profile.
 enum class MergeQueued : std::uint8_t { no, yes };
+/// When a reader of `implementation: cyclone` tells a sample: when it has all before it; or, if the
+/// sample is newer than what the first HEARTBEAT of its writer announced, when it has all that is
+/// as new.
+enum class Notification : std::uint8_t { in_order, fresh_at_once };
 
 /// SPDP: the participant announcements.
 struct SpdpProfile {
@@ -156,6 +160,7 @@ struct SedpProfile {
   std::uint32_t max_queued_rexmit_messages = 200;
   /// Whether a request for a retransmission that is queued for another reader makes it one to all.
   MergeQueued merge_queued_rexmit = MergeQueued::yes;
+  Notification notification = Notification::in_order;
 
   bool operator==(const SedpProfile&) const = default;
 };

@@ -180,9 +180,9 @@ struct Cyclone {
   using State =
       TypeList<Recognised, AckDue, HeartbeatDue, SpdpDue, ReplyDue, Exists, Sent, HeartbeatCount,
                HeartbeatsSince, LastHeartbeat, HeartbeatSent, WriterOpen, Acked, LastAckCount,
-               AckCountsUntil, SomeAccepted, SomeRefused, X, Known, Notified, ByDelay, AskedEnd,
-               LastBase, LastHeartbeatCount, HeartbeatCountsUntil, QuietUntil, HushUntil, AgainAt,
-               NextAckCount, RepliesSent>;
+               AckCountsUntil, SomeAccepted, SomeRefused, X, Known, Historic, Notified, ByDelay,
+               AskedEnd, LastBase, LastHeartbeatCount, HeartbeatCountsUntil, QuietUntil, HushUntil,
+               AgainAt, NextAckCount, RepliesSent>;
   /// What is counted of a stream are always its first samples, up to some number; so are these.
   using FirstSamples = TypeList<Acked>;
   using Packets = TypeList<Spdp, Data, Heartbeat, AckNack>;

@@ -31,6 +31,7 @@ struct ReaderIsClosed : Rule<Happens<ReaderCloses>> {
     w.perform(LeaveList{});
     w.set_each(X{}, nobody);
     w.set_each(Known{}, nobody);
+    w.set_each(Historic{}, nobody);
     w.set_each(Notified{}, nobody);
     w.set_each(Passed{}, nobody);
     w.set(ByDelay{}, typename W::Bool(false));
@@ -228,9 +229,7 @@ void pass_over(W& w) {
   w.when(!w.in(Judge{}, is<cautious_reader::Closed>), [&] {
     w.set_each(Passed{}, [](auto& d) { return d(Passed{}) || (d(Field{}) && !d(X{})); });
     w.set_each(X{}, [](auto& d) { return d(X{}) || d(Field{}); });
-    w.for_descriptors(
-        [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
-        follow_endpoint);
+    w.for_descriptors([](auto& d) { return !d(Notified{}) && can_be_told(d); }, follow_endpoint);
   });
 }
 struct LivingDataArrives : Rule<Received<Data>> {

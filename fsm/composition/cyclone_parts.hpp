@@ -57,6 +57,7 @@ struct SomeRefused : Flag<owner::relation> {};
 
 // The reader. `Known` are the samples up to the highest that it knows to exist.
 struct Known : Flag<owner::descriptor> {};
+struct Historic : Flag<owner::descriptor> {};  ///< the writer's first HEARTBEAT announced it
 struct Notified : Flag<owner::descriptor> {};  ///< the application knows it
 struct ByDelay : Flag<owner::relation> {};
 struct AskedEnd : Number<owner::relation> {};
@@ -85,6 +86,7 @@ struct DirectedReplies : DelayOf<"spdp.directed_replies"> {};  ///< how many
 struct DirectedReplyInterval : DelayOf<"spdp.directed_reply_interval"> {};
 struct SendTime : Delay {};  ///< of the deployment: between two packets of a participant
 struct MergesQueued : SwitchOf<"sedp.merge_queued_rexmit", "true"> {};
+struct TellsFreshAtOnce : SwitchOf<"sedp.notification", "fresh_at_once"> {};
 
 /// The count of a HEARTBEAT or ACKNACK.
 struct Count : PacketNumber {};

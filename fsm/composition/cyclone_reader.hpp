@@ -49,8 +49,14 @@ struct ReaderIsOpened : Rule<Happens<ReaderOpens>> {
   }
 };
 
-/// Only the descriptors of endpoints are told to the application, in order: `notify` is what
-/// happens then.
+/// All before it are there; or, of one that its writer's first HEARTBEAT did not know of yet, all
+/// since then.
+inline constexpr auto can_be_told = [](auto& d) {
+  const auto in_order = d.all_up_to([](auto& e) { return e(X{}); });
+  const auto fresh = d.all_up_to([](auto& e) { return e(X{}) || e(Historic{}); });
+  return in_order || (d(TellsFreshAtOnce{}) && !d(Historic{}) && fresh);
+};
+/// Only the descriptors of endpoints are told to the application: `notify` is what happens then.
 template <class W, class Notify>
 void take_data(W& w, Notify&& notify) {
   const auto reader = judge<cautious_reader::DataReceived>(w);
@@ -60,9 +66,7 @@ void take_data(W& w, Notify&& notify) {
     });
     w.set_each(X{}, [](auto& d) { return d(X{}) || d(Carries{}); });
     w.when(!w(RunEnds{}), [&] {
-      w.for_descriptors(
-          [](auto& d) { return !d(Notified{}) && d.all_up_to([](auto& e) { return e(X{}); }); },
-          notify);
+      w.for_descriptors([](auto& d) { return !d(Notified{}) && can_be_told(d); }, notify);
     });
   });
 }
@@ -81,6 +85,8 @@ void take_heartbeat(W& w) {
   const auto last = w.count([](auto& d) { return d(Known{}) || d(Announces{}); });
   const auto fresh =
       w(Count{}) > w(LastHeartbeatCount{}) || !(w(HeartbeatCountsUntil{}) > w(Now{}));
+  w.when(w.in(Judge{}, is<cautious_reader::Unheard>),
+         [&] { w.set_each(Historic{}, [](auto& d) { return d(Announces{}); }); });
   const auto reader = judge<cautious_reader::HeartbeatReceived>(w, last, fresh, w(IsDirected{}));
   w.when(reader.learn,
          [&] { w.set_each(Known{}, [](auto& d) { return d(Known{}) || d(Announces{}); }); });

@@ -25,7 +25,8 @@ struct Columns : Numbers {
   static way::Prefix column(rules::Exists);
   static way::Prefix column(rules::Sent);
   static way::Prefix column(rules::Known);
-  static way::Prefix column(rules::Notified);
+  static way::Prefix column(rules::Historic);
+  static way::Bits column(rules::Notified);
   static way::Bits column(comp::X);
 };
 

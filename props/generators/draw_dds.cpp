@@ -92,6 +92,7 @@ void draw_cyclone_rules(Dice& dice, model::DdsProfile& dds) {
   sedp.max_queued_rexmit_messages =
       dice.pick<std::uint32_t>({200, 200, 1, 2, 5, dice.count(0, 30)});
   sedp.merge_queued_rexmit = dice.chance(75) ? model::MergeQueued::yes : model::MergeQueued::no;
+  sedp.notification = dice.choice<model::Notification>(2);
 }
 
 void draw_cyclone_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {

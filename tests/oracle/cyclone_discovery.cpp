@@ -31,12 +31,22 @@ void notify(World& w, Id j, Id i, int stream, Sample sample) {
 void match_created(World& w, Id i, int stream, int topic, Id j) {
   const int other = stream == publications ? subscriptions : publications;
   const Sample counterpart = sample_on(other, topic);
-  if (counterpart > w.readers.at({j, other, i}).notified) return;
+  if (!w.readers.at({j, other, i}).notified.contains(counterpart)) return;
   if (stream == publications) {
     open_writer(w, i, topic, j);
   } else {
     open_reader(w, j, topic, i);
   }
+}
+
+// Nothing is missing below the sample, down to what its writer had at first or to the first one.
+bool can_be_told(const World& w, const Reader& r, Sample k) {
+  const bool fresh = w.sedp.notification == model::Notification::fresh_at_once &&
+                     k > r.first_heard && !w.makes(Mistake::fresh_samples_wait);
+  for (Sample lower = fresh ? r.first_heard + 1 : 1; lower <= k; ++lower) {
+    if (!r.received.contains(lower)) return false;
+  }
+  return true;
 }
 
 void complete(World& w) {
@@ -142,9 +152,10 @@ void receive_data(World& w, Id j, const Message& m) {
   if (m.writer > subscriptions) return;
   if (!w.lives && fresh && cross_host(w, m.owner, j) && --w.missing == 0) complete(w);
   if (w.ended) return;
-  while (r.received.contains(r.notified + 1)) {
-    ++r.notified;
-    notify(w, j, m.owner, m.writer, r.notified);
+  for (const Sample k : r.received) {
+    if (r.notified.contains(k) || !can_be_told(w, r, k)) continue;
+    r.notified.insert(k);
+    notify(w, j, m.owner, m.writer, k);
   }
 }
 

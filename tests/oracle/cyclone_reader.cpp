@@ -102,6 +102,7 @@ void receive_gap(World& w, Id j, const Message& m) {
 void receive_heartbeat(World& w, Id j, const Message& m) {
   Reader& r = w.readers.at({m.owner, m.writer, j});
   if (!r.open) return;
+  if (!r.seen || w.makes(Mistake::each_heartbeat_is_first)) r.first_heard = m.sample;
   r.seen = true;
   for (Sample k = 1; k < m.first; ++k) r.received.insert(k);
   r.last = std::max(r.last, m.sample);

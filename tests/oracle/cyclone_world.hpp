@@ -149,7 +149,8 @@ struct Reader {
   Sample end = 0;
   std::int64_t next_count = 1;
   std::size_t timer = 0;
-  Sample notified = 0;
+  Sample first_heard = 0;  // announced by the first HEARTBEAT
+  std::set<Sample> notified;
 };
 
 struct Participant {

@@ -311,18 +311,20 @@ enum class CycloneMistake : std::uint8_t {
   single_without_all,    ///< the one who is behind gets it even if nobody has everything
   group_for_one,         ///< a single reader is addressed by the group
   // The reader.
-  unseen_data_taken,       ///< DATA is taken before a HEARTBEAT was seen
-  data_announces_nothing,  ///< DATA does not raise `last`
-  old_heartbeats_count,    ///< counts of HEARTBEATs are not compared
-  asks_once,               ///< the pre-emptive ACKNACK is not repeated
-  ack_delay_ignored,       ///< the same ACK is repeated at once
-  nack_delay_ignored,      ///< the same request is repeated at once
-  new_gaps_wait,           ///< new samples are asked for like old ones
-  answers_are_heartbeats,  ///< a directed HEARTBEAT is one like any other
-  never_delayed,           ///< the reader forgets that the last request was delayed
-  hush_answers_at_once,    ///< a reader that keeps quiet is asked again at once
-  never_asks_again,        ///< a reader does not ask again by itself
-  bitmap_words_down,       ///< the bitmap takes floor(k/32) words
+  unseen_data_taken,        ///< DATA is taken before a HEARTBEAT was seen
+  data_announces_nothing,   ///< DATA does not raise `last`
+  fresh_samples_wait,       ///< what is newer than the first HEARTBEAT is told in order, too
+  each_heartbeat_is_first,  ///< nor is it fresh once a later HEARTBEAT announced it
+  old_heartbeats_count,     ///< counts of HEARTBEATs are not compared
+  asks_once,                ///< the pre-emptive ACKNACK is not repeated
+  ack_delay_ignored,        ///< the same ACK is repeated at once
+  nack_delay_ignored,       ///< the same request is repeated at once
+  new_gaps_wait,            ///< new samples are asked for like old ones
+  answers_are_heartbeats,   ///< a directed HEARTBEAT is one like any other
+  never_delayed,            ///< the reader forgets that the last request was delayed
+  hush_answers_at_once,     ///< a reader that keeps quiet is asked again at once
+  never_asks_again,         ///< a reader does not ask again by itself
+  bitmap_words_down,        ///< the bitmap takes floor(k/32) words
   // ACKNACKs at the writer.
   old_acknacks_count,    ///< counts of ACKNACKs are not compared
   replies_take_back,     ///< an ACKNACK counts as reply even if it acknowledges less than before

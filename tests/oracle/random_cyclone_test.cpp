@@ -47,6 +47,10 @@ constexpr Share shares[] = {
      [](const Scenario& s, const CycloneOutcome&) {
        return s.dds.sedp.merge_queued_rexmit == model::MergeQueued::no;
      }},
+    {"told in order",
+     [](const Scenario& s, const CycloneOutcome&) {
+       return s.dds.sedp.notification == model::Notification::in_order;
+     }},
     {"sending takes no time",
      [](const Scenario& s, const CycloneOutcome&) {
        return s.deployment.time_to_send() == model::Nanoseconds{0};

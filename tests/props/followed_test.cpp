@@ -304,6 +304,12 @@ TEST(Followed, AnotherEventThreadOfCycloneDdsIsNoticed) {
          const bool merges = s.dds.sedp.merge_queued_rexmit == model::MergeQueued::yes;
          s.dds.sedp.merge_queued_rexmit = merges ? model::MergeQueued::no : model::MergeQueued::yes;
        }},
+      {"notification",
+       [](Scenario& s) {
+         const bool fresh = s.dds.sedp.notification == model::Notification::fresh_at_once;
+         s.dds.sedp.notification =
+             fresh ? model::Notification::in_order : model::Notification::fresh_at_once;
+       }},
       {"send_time", [](Scenario& s) { s.deployment.send_time = model::Nanoseconds{77}; }},
       {"open", [](Scenario& s) {
          for (auto& p : s.deployment.participants) p.open = s.time_limit;

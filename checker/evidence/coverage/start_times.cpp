@@ -18,6 +18,13 @@ namespace {
 /// A storm is another one if a participant starts a microsecond later; no measurement is nearer.
 constexpr model::Nanoseconds most_later{1'000'000};
 
+/// A program that creates its endpoints keeps its core busy with that, and what arrives waits for
+/// the threads that receive. When these have their turn nobody measured: half the way.
+model::Nanoseconds listens_at(const model::Participant& participant) {
+  const model::Nanoseconds creates = participant.endpoints_done - participant.start;
+  return participant.start + model::Nanoseconds{creates.count() / 2};
+}
+
 }  // namespace
 
 void StartTimes::put(model::Deployment& deployment, std::size_t sample, std::uint64_t seed) const {
@@ -37,6 +44,7 @@ void StartTimes::put(model::Deployment& deployment, std::size_t sample, std::uin
     if (deployment.schedule && deployment.schedule->open_before) {
       participant.open =
           std::max(model::Nanoseconds{}, participant.start - *deployment.schedule->open_before);
+      participant.ready = listens_at(participant);
     }
     if (!is_repeated) continue;
     const auto later = static_cast<std::int64_t>(random() % (most_later.count() + 1));

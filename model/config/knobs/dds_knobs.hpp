@@ -59,6 +59,9 @@ inline constexpr std::array<std::string_view, 4> enum_names<AllowMulticast>{"tru
                                                                             "default", "false"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MergeQueued>{"false", "true"};
+template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Notification>{"in_order",
+                                                                          "fresh_at_once"};
 
 template <>
 inline constexpr std::array<std::string_view, 4> enum_names<Discovery>{"simple", "server",
@@ -209,11 +212,15 @@ constexpr void visit_cyclone_sedp(auto& visit, Is<SedpProfile> auto& sedp,
   visit.knob("max_queued_rexmit_messages", sedp.max_queued_rexmit_messages,
              count_range(0, 1'000'000),
              "retransmissions that a participant queues (MaxQueuedRexmitMessages)", required);
-  visit.knob(
-      "merge_queued_rexmit", sedp.merge_queued_rexmit, ChoiceType<MergeQueued>{},
-      "whether a retransmission that is queued for another reader goes to all instead; true "
-      "if absent",
-      of_cyclone(implementation) == Presence::required ? Presence::defaulted : Presence::of_others);
+  const Presence defaulted = required == Presence::required ? Presence::defaulted : required;
+  visit.knob("merge_queued_rexmit", sedp.merge_queued_rexmit, ChoiceType<MergeQueued>{},
+             "whether a retransmission that is queued for another reader goes to all instead; true "
+             "if absent",
+             defaulted);
+  visit.knob("notification", sedp.notification, ChoiceType<Notification>{},
+             "whether samples that are newer than the first HEARTBEAT are told before older ones "
+             "that are missing; in_order if absent",
+             defaulted);
 }
 
 /// How relations open, repair and acknowledge; the second part of `sedp`.

@@ -115,6 +115,7 @@ constexpr VendorKnob cyclonedds_knobs[] = {
     {"sedp.max_queued_rexmit_messages", "Internal/MaxQueuedRexmitMessages",
      "acts on user data, too", 1, 10'000},
     {"sedp.merge_queued_rexmit", "", "rule of the library, q_xmsg.c:808-890"},
+    {"sedp.notification", "", "rule of the library, q_receive.c:1309-1320"},
 };
 
 }  // namespace

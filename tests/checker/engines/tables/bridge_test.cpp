@@ -109,7 +109,9 @@ TEST(Bridge, EveryStepOfTheAmendedRulesIsDerived) {
 TEST(Bridge, EveryStepOfCycloneDdssRulesIsDerived) {
   model::DdsProfile each_for_itself = cyclone();
   each_for_itself.sedp.merge_queued_rexmit = model::MergeQueued::no;
-  for (const model::DdsProfile& dds : {cyclone(), each_for_itself}) {
+  model::DdsProfile fresh = cyclone();
+  fresh.sedp.notification = model::Notification::fresh_at_once;
+  for (const model::DdsProfile& dds : {cyclone(), each_for_itself, fresh}) {
     const Crossing crossing = cross<comp::cyclone::Cyclone>(dds, Unsound::none, 16, 1);
     EXPECT_GT(crossing.distinct, 400U);
     EXPECT_EQ(first_of(crossing), "") << crossing.refused.size() << " of " << crossing.distinct;

@@ -109,6 +109,15 @@ TEST(StartTimes, OfCycloneItHearsBeforeItsMeasuredStart) {
   EXPECT_EQ(first.participants[1].open, ms(27));
 }
 
+/// While it creates its endpoints, half of the time, what arrives waits.
+TEST(StartTimes, OfCycloneItListensHalfWayToItsLastEndpoint) {
+  const model::Participant one =
+      started(with_times(), {"cyclonedds-0.10", "emulated-ap", {}, {}}, 0).participants[1];
+  EXPECT_EQ(one.ready, ms(50));
+  EXPECT_FALSE(
+      started(with_times(), {"fastdds-2.6.11", "emulated-ap", {}, {}}, 0).participants[1].ready);
+}
+
 TEST(StartTimes, AScheduleThatSomebodyAskedForCounts) {
   const ScenarioOptions options{
       "fastdds-2.6.11", "emulated-ap", {"deployment.schedule.start=[5ms,5ms]"}, {}};

@@ -60,7 +60,7 @@ TEST(JsonSchemaContent, fast_dds_needs_fewer_keys_and_forbids_the_others) {
   EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false},
                                                              {"directed_replies", false},
                                                              {"directed_reply_interval", false}}));
-  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U + 11U);
+  EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U + 12U);
   EXPECT_EQ(forbidden.count("unmodelled"), 0U);
   EXPECT_EQ(schema["properties"]["unmodelled"]["additionalProperties"]["type"], "string");
 }

@@ -61,7 +61,8 @@ TEST(KnobList, cyclone_dds_has_the_settings_of_its_configuration) {
                                   "dds.sedp.max_message_size",
                                   "dds.sedp.max_rexmit_message_size",
                                   "dds.sedp.max_queued_rexmit_messages",
-                                  "dds.sedp.merge_queued_rexmit"};
+                                  "dds.sedp.merge_queued_rexmit",
+                                  "dds.sedp.notification"};
   EXPECT_EQ(keys_beyond(ImplementationKind::cyclone, ImplementationKind::fastdds), own);
   std::set<std::string> of_programs = own;  // with what the paper's model knows nothing of
   of_programs.insert({"dds.max_participants_per_host", "dds.spdp.lease"});
