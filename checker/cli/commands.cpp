@@ -7,6 +7,7 @@ void declare_commands(Frame& frame) {
   declare_init(frame);
   declare_simulate(frame);
   declare_check(frame);
+  declare_fix(frame);
   declare_diff(frame);
   declare_compare_discovery(frame);
   declare_launch(frame);

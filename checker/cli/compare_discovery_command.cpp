@@ -102,7 +102,7 @@ Outcome run(CompareArguments& arguments, Session& session) {
                    std::vector{arguments.request.scenario});
     if (const auto error = folder->prepare()) return Complaint{*error};
   }
-  arguments.request.on_progress = session.on_steps();
+  arguments.request.on_progress = session.on_study();
   auto report = compare::compare(arguments.request, specs);
   if (!report) return report.error();
   Answer answer;

@@ -25,6 +25,7 @@ struct DoctorArguments {
   std::string duration = "60s";
   std::string recorded = "stormproof-doctor.pcap";
   std::string until;
+  std::vector<std::string> limits;
   OutputFile xml;
   bool no_advice = false;
 };
@@ -50,6 +51,29 @@ std::optional<Complaint> record(DoctorArguments& arguments, Session& session) {
   return std::nullopt;
 }
 
+/// `--limit` by `--limit`; the error of the first that is none.
+std::optional<std::string> parse_limits(const std::vector<std::string>& texts,
+                                        model::Limits& limits) {
+  constexpr model::Nanoseconds longest{1'000'000'000'000};
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    const std::string value = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (name == "late") {
+      const auto late = parse_duration("--limit late", value, longest);
+      if (!late) return late.error();
+      limits.late = *late;
+    } else if (name == "needless") {
+      const auto needless = model::config::parse_fraction(value);
+      if (!needless) return fmt::format("--limit {}: {}", text, needless.error());
+      limits.needless = model::Ratio{needless->numerator, needless->denominator};
+    } else {
+      return fmt::format("--limit {}: expected late=TIME or needless=RATIO, such as late=3s", text);
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<report::NextStep> next_of(const doctor::Report& report,
                                       const doctor::Request& request) {
   std::vector<report::NextStep> next;
@@ -68,6 +92,7 @@ Outcome run(DoctorArguments& arguments, Session& session) {
   if (request.files.empty() == arguments.interface.empty()) {
     return Complaint{"expected either captures to read, or --interface NAME to record from"};
   }
+  if (auto error = parse_limits(arguments.limits, request.limits)) return Complaint{*error};
   if (!arguments.interface.empty()) {
     if (auto error = record(arguments, session)) return *std::move(error);
   }
@@ -116,6 +141,10 @@ void declare(Options& options, DoctorArguments& arguments) {
                "Where the recording is kept (default stormproof-doctor.pcap)", "FILE.pcap")
       .needs(interface);
   options.until(arguments.until, "Look at events until this instant");
+  options.texts("--limit", arguments.limits,
+                "What a storm is (repeatable): late=1s from the last start on, needless=1 times "
+                "what everything sent once takes",
+                "NAME=VALUE");
   options.text("--dds", request.dds,
                "DDS profile to predict with (default: the one that explains the capture)",
                "PROFILE");

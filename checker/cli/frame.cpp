@@ -12,6 +12,7 @@
 
 #include "checker/cli/complain.hpp"
 #include "checker/cli/completion.hpp"
+#include "checker/cli/durations.hpp"
 #include "checker/cli/examples.hpp"
 #include "checker/cli/memory_limit.hpp"
 #include "checker/cli/overwriting.hpp"
@@ -88,10 +89,22 @@ std::optional<std::string> refuse_folder(const std::string& option, const std::s
   return fmt::format("{} {}: is no folder", option, folder);
 }
 
+/// `--time`, in seconds; nothing if it was not given.
+model::config::Result<std::optional<double>, std::string> seconds_of(const std::string& time) {
+  if (time.empty()) return std::optional<double>{};
+  constexpr model::Nanoseconds longest{1'000'000'000'000'000};
+  const auto duration = parse_duration("--time", time, longest);
+  if (!duration) return duration.error();
+  if (duration->count() == 0) return std::string{"--time " + time + ": expected more than that"};
+  return std::optional{static_cast<double>(duration->count()) * 1e-9};
+}
+
 /// Why an answer is not complete, if the work was stopped.
-void say_why_not() {
+void say_why_not(const std::string& time) {
   if (InterruptGuard::short_of_memory()) {
     complain(needs_more_memory());
+  } else if (InterruptGuard::out_of_time()) {
+    say("stormproof: --time " + time + " is over; this is what was known by then");
   } else if (InterruptGuard::interrupted()) {
     say("stormproof: interrupted; this is what was known by then");
   }
@@ -129,6 +142,7 @@ struct Frame::Command {
   bool verbose = false;
   std::optional<bool> progress{};  ///< not given: when stderr is a terminal
   std::string max_memory{};        ///< as written; empty: what the machine has
+  std::string time{};              ///< as written; empty: as long as it takes
 
   void declare_own(Options& options);
   int execute();
@@ -167,6 +181,8 @@ void Frame::Command::declare_own(Options& options) {
       .flag(
           "--no-progress", [this] { progress = false; }, "Show no progress")
       .not_repeated();
+  options.text("--time", time,
+               "Stop after this much time by the clock, and say what is known: 60s, 5min", "TIME");
   options
       .text("--max-memory", max_memory,
             "Stop before more memory than this is used: 500MB, 4GiB (default: three quarters of "
@@ -249,7 +265,7 @@ int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
   }
   print(render(answer, format, terminal));
   for (const std::string& note : answer.notes) say(visible(note));
-  if (!answer.document.complete) say_why_not();
+  if (!answer.document.complete) say_why_not(time);
   for (const std::string& error : errors) complain(error);
   return answer.document.exit_code;
 }
@@ -258,7 +274,9 @@ int Frame::Command::execute() {
   const auto limit = memory_limit(max_memory);
   if (!limit) return complain(limit.error());
   limit_memory(*limit);
-  const InterruptGuard guard;
+  const auto seconds = seconds_of(time);
+  if (!seconds) return complain(seconds.error());
+  const InterruptGuard guard{*seconds};
   if (const auto error = open_files()) return complain(*error);
   const std::vector<Given> given = given_to(*parsed, declared.not_repeated);
   Outcome outcome = [&] {
@@ -267,7 +285,7 @@ int Frame::Command::execute() {
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);
   if (const auto* code = std::get_if<ExitCode>(&outcome)) {
-    say_why_not();
+    say_why_not(time);
     Errors errors;
     commit_declared(errors);
     for (const std::string& error : errors) complain(error);

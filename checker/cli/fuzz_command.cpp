@@ -19,6 +19,8 @@ namespace {
 
 constexpr std::size_t usual_runs = 200;
 constexpr std::size_t most_runs = 1'000'000;
+/// Of `--time`: the rest is for those that run then, and for what breaks to be shrunk.
+constexpr double for_variants = 0.8;
 
 /// Writes ID.yaml, .txt, .mmd, .svg and .jsonl of every shrunk counterexample.
 void write_shrunk(OutputFolder& folder, const fuzz::FuzzReport& report,
@@ -44,12 +46,13 @@ fuzz::FuzzOptions options_of(const FuzzArguments& arguments, std::vector<std::st
                              Session& session) {
   fuzz::FuzzOptions options;
   options.seconds = arguments.seconds;
-  options.runs = arguments.runs.value_or(arguments.seconds ? most_runs : usual_runs);
+  if (const auto left = Session::seconds_left()) options.seconds = for_variants * *left;
+  options.runs = arguments.runs.value_or(options.seconds ? most_runs : usual_runs);
   options.seed = arguments.seed;
   options.first = arguments.first;
   options.jobs = arguments.jobs;
   options.only = std::move(ids);
-  options.on_progress = [&session, timed = arguments.seconds.has_value(),
+  options.on_progress = [&session, timed = options.seconds.has_value(),
                          runs = options.runs](const fuzz::FuzzProgress& progress) {
     return session.proceed([&] {
       std::string text = timed ? fmt::format("{} runs", progress.finished)
@@ -95,7 +98,7 @@ Outcome run(FuzzArguments& arguments, Session& session) {
       fuzz::fuzz(*scenario, ranges, options_of(arguments, *ids, session));
   fuzz::FuzzContext context{arguments.scenario,
                             *scenario,
-                            session.command({"--runs", "--seconds", "--seed", "--first"}),
+                            session.command({"--runs", "--seconds", "--time", "--seed", "--first"}),
                             {},
                             {}};
   Answer answer;
@@ -135,7 +138,9 @@ void declare(Options& options, FuzzArguments& arguments) {
                 "Judge only by this property or limit.NAME, and by --limit (repeatable)", "ID");
   options.number("--runs", arguments.runs, "Number of variants (default 200)", "N")
       .within(std::size_t{1}, most_runs);
-  options.number("--seconds", arguments.seconds, "Start no run after this time", "S")
+  options
+      .number("--seconds", arguments.seconds,
+              "Given up, --time 60s says it: start no run after this time", "S")
       .within(0.001, 1e6);
   options.seed(arguments.seed, "Seed of the variants (default 0)");
   options.number("--first", arguments.first, "Number of the first variant (default 0)", "K")

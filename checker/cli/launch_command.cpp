@@ -12,7 +12,7 @@ namespace {
 
 struct LaunchArguments {
   launch::Request request;
-  std::string time = "60s";
+  std::string limit;  ///< a duration; empty: 60 s
   std::vector<std::string> steps;
   std::string start_jitter = "10ms";
   std::string folder;  ///< of what a robot runs; empty: none
@@ -24,10 +24,12 @@ constexpr model::Nanoseconds longest{1'000'000'000'000};
 /// What is wrong with the options, or nothing; the request is complete then.
 std::optional<std::string> complete(LaunchArguments& arguments) {
   launch::Request& request = arguments.request;
-  const auto time = parse_duration("--time", arguments.time, longest);
-  if (!time) return time.error();
-  if (time->count() == 0) return "--time 0s: expected more than that";
-  request.time = *time;
+  if (!arguments.limit.empty()) {
+    const auto limit = parse_duration("--limit", arguments.limit, longest);
+    if (!limit) return limit.error();
+    if (limit->count() == 0) return "--limit 0s: expected more than that";
+    request.limit = *limit;
+  }
   const auto jitter = parse_duration("--start-jitter", arguments.start_jitter, longest);
   if (!jitter) return jitter.error();
   request.start_jitter = *jitter;
@@ -62,16 +64,21 @@ Outcome run(LaunchArguments& arguments, Session& session) {
     folder.emplace("--export", arguments.folder, "launch", std::vector{request.scenario});
     if (const auto error = folder->prepare()) return Complaint{*error};
   }
-  request.on_progress = session.on_steps();
+  request.on_progress = session.on_study();
   const auto report = launch::launch(request, model::config::SpecPath::standard());
   if (!report) return report.error();
   Answer answer;
+  if (Session::seconds_left() && arguments.limit.empty()) {
+    answer.notes.emplace_back(
+        "stormproof: --time is the time by the clock; how long a run may take is --limit");
+  }
   std::vector<std::string> written;
   if (folder) {
     written = write_files(*folder, *report, request);
     answer.complaint = folder->error().value_or("");
   }
   answer.document = document_of(*report, request, written);
+  Session::note_interruption(answer.document);
   answer.json = to_json(*report, request, written);
   if (arguments.svg.wanted()) arguments.svg.stream() << to_svg(*report);
   return answer;
@@ -80,7 +87,8 @@ Outcome run(LaunchArguments& arguments, Session& session) {
 void declare(Options& options, LaunchArguments& arguments) {
   launch::Request& request = arguments.request;
   options.scenario(request.scenario, request.overrides);
-  options.text("--time", arguments.time, "What takes longer is not complete (default 60s)", "TIME");
+  options.text("--limit", arguments.limit, "What takes longer is not complete (default 60s)",
+               "TIME");
   options.texts("--step", arguments.steps,
                 "Time between two starts of a spread (repeatable; default: 10ms to 2s)", "TIME");
   options.number("--samples", request.samples, "Runs of each plan and setting (default 5)", "N")

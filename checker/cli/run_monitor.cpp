@@ -1,6 +1,7 @@
 // Signal handling and the progress line.
 #include "checker/cli/run_monitor.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 
@@ -20,8 +21,14 @@ namespace stormproof::cli {
 
 namespace {
 
-std::atomic<bool> interrupt_seen = false;
-std::atomic<bool> memory_is_short = false;
+using Clock = std::chrono::steady_clock;
+
+/// Why the work is to stop.
+enum class Stop : std::uint8_t { no, asked, memory, time };
+std::atomic<Stop> stop = Stop::no;
+
+/// When the time of the work is over. Set before any thread looks.
+std::optional<Clock::time_point> deadline;
 
 /// The first `columns` characters of `text`, the last of them "…" if there are more.
 std::string cut_to(std::string text, std::size_t columns) {
@@ -59,9 +66,13 @@ sigset_t watched_signals() {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
-  interrupt_seen = false;
-  memory_is_short = false;
+InterruptGuard::InterruptGuard(std::optional<double> seconds) {
+  stop = Stop::no;
+  deadline.reset();
+  if (seconds) {
+    const std::chrono::duration<double> allowed{*seconds};
+    deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed);
+  }
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, &before_);
   signals_ = signalfd(-1, &set, SFD_CLOEXEC);
@@ -82,23 +93,27 @@ void InterruptGuard::watch() const {
   pollfd ready[] = {{end_, POLLIN, 0}, {signals_, POLLIN, 0}};
   while (true) {
     const int count = poll(ready, 2, glance_milliseconds);
-    if (memory_runs_short() && !interrupt_seen) {
-      memory_is_short = true;
-      interrupt_seen = true;
-    }
+    if (stop == Stop::no && memory_runs_short()) stop = Stop::memory;
+    if (stop == Stop::no && deadline && Clock::now() >= *deadline) stop = Stop::time;
     if (count <= 0) continue;
     if (ready[0].revents != 0) return;
     signalfd_siginfo received{};
     if (read(signals_, &received, sizeof received) != sizeof received) continue;
-    if (interrupt_seen && !memory_is_short) end_by(static_cast<int>(received.ssi_signo));
-    memory_is_short = false;
-    interrupt_seen = true;
+    if (stop == Stop::asked) end_by(static_cast<int>(received.ssi_signo));
+    stop = Stop::asked;
   }
 }
 
-bool InterruptGuard::interrupted() { return interrupt_seen; }
+bool InterruptGuard::interrupted() { return stop != Stop::no; }
 
-bool InterruptGuard::short_of_memory() { return memory_is_short; }
+bool InterruptGuard::short_of_memory() { return stop == Stop::memory; }
+
+bool InterruptGuard::out_of_time() { return stop == Stop::time; }
+
+std::optional<double> InterruptGuard::seconds_left() {
+  if (!deadline) return std::nullopt;
+  return std::max(0.0, std::chrono::duration<double>(*deadline - Clock::now()).count());
+}
 
 StatusLine::~StatusLine() {
   if (shown_) mutter("\r\033[K");

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -11,11 +12,12 @@ namespace stormproof::cli {
 /// While it lives, Ctrl-C (SIGINT, SIGTERM, SIGHUP) is remembered instead of ending the program; a
 /// second one ends it, without half-written files. The signals are blocked in every thread and
 /// taken from a descriptor by one of our own, so no handler that a library installs (Z3 does,
-/// around each query) can swallow them. That thread looks after memory, too: short of it, the work
-/// is stopped as by Ctrl-C, while there is some left for saying what is known.
+/// around each query) can swallow them. That thread looks after memory and time (`--time`), too:
+/// short of either, the work is stopped as by Ctrl-C, and says what is known.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  /// `seconds`: how long the work may take; absent: as long as it takes.
+  explicit InterruptGuard(std::optional<double> seconds = {});
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
@@ -24,6 +26,10 @@ class InterruptGuard {
   [[nodiscard]] static bool interrupted();
   /// Whether that is because memory runs short.
   [[nodiscard]] static bool short_of_memory();
+  /// Whether that is because its time is over.
+  [[nodiscard]] static bool out_of_time();
+  /// Of the time that the work may take, at least 0; absent: as long as it takes.
+  [[nodiscard]] static std::optional<double> seconds_left();
 
  private:
   void watch() const;

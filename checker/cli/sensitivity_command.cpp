@@ -82,6 +82,7 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   const sensitivity::Report report = sensitivity::analyse(*scenario, description.options);
   Answer answer;
   answer.document = document_of(report, description);
+  Session::note_interruption(answer.document);
   answer.json = to_json(report, description);
   if (const auto change =
           sensitivity::best_change(report, description.options.by, description.dds)) {

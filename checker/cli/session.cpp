@@ -1,11 +1,15 @@
 // The words of the progress line.
 #include "checker/cli/session.hpp"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "checker/cli/exit_code.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/presentation/document/document.hpp"
 #include "checker/presentation/text/numbers.hpp"
+#include "checker/presentation/text/plain_text.hpp"
 #include "model/simulator.hpp"
 
 namespace stormproof::cli {
@@ -18,14 +22,58 @@ void Session::note_interruption(report::Document& document) {
   document.answer = report::Text{"INTERRUPTED; so far: "} + document.answer;
 }
 
+namespace {
+
+/// Runs that tell how long the others take.
+constexpr std::size_t first_runs = 8;
+
+/// ", about 3 min left", once there are runs to tell it from.
+std::string time_left(double seconds, std::size_t done, std::size_t all) {
+  if (done < first_runs || all <= done) return {};
+  const double left = seconds / static_cast<double>(done) * static_cast<double>(all - done);
+  return left < 90 ? fmt::format(", about {:.0f} s left", left)
+                   : fmt::format(", about {:.0f} min left", left / 60);
+}
+
+}  // namespace
+
+/// Says once, if it takes more than two minutes or than it may, about how long it takes: not
+/// everybody has a line that shows progress.
+void Session::estimate(double seconds, std::size_t done, std::size_t all) {
+  constexpr double first_look = 5;
+  constexpr double long_run = 120;
+  const auto left = seconds_left();
+  const double look = left ? std::min(first_look, (seconds + *left) / 4) : first_look;
+  if (has_estimated_ || seconds < look || done < first_runs) return;
+  has_estimated_ = true;
+  const double rest = seconds / static_cast<double>(done) * static_cast<double>(all - done);
+  const std::string words = fmt::format("stormproof: {} take about {:.0f} s here",
+                                        report::plural(all, "run"), seconds + rest);
+  if (left && rest > *left) {
+    say(words + "; not all of them fit into --time");
+  } else if (!left && rest > long_run) {
+    say(words + "; --time 60s stops after a minute, and says what is known");
+  }
+}
+
 std::function<bool(std::size_t, std::size_t)> Session::on_runs() {
   return [this, started = seconds()](std::size_t done, std::size_t all) {
+    const double passed = seconds() - started;
+    estimate(passed, done, all);
     return proceed([&] {
-      std::string text = fmt::format("{} of {} runs", report::grouped(done), report::grouped(all));
-      const double each = (seconds() - started) / static_cast<double>(done);
-      if (done > 0)
-        text += fmt::format(", about {:.0f} s left", static_cast<double>(all - done) * each);
-      return text;
+      return fmt::format("{} of {} runs{}", report::grouped(done), report::grouped(all),
+                         time_left(passed, done, all));
+    });
+  };
+}
+
+std::function<bool(std::string_view, std::size_t, std::size_t)> Session::on_study() {
+  return [this, started = seconds()](std::string_view what, std::size_t done, std::size_t about) {
+    const double passed = seconds() - started;
+    estimate(passed, done, about);
+    return proceed([&] {
+      return fmt::format("{}: {} of about {} runs{}", what, report::grouped(done),
+                         report::grouped(about), time_left(passed, done, about));
     });
   };
 }

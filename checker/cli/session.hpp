@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -54,11 +55,22 @@ class Session {
   /// The same for reading captures.
   [[nodiscard]] std::function<bool(std::uint64_t packets)> on_packets();
 
+  /// The same for a study of many runs: "WHAT: 40 of about 440 runs, about 12 s left".
+  [[nodiscard]] std::function<bool(std::string_view what, std::size_t done, std::size_t about)>
+  on_study();
+
   [[nodiscard]] double seconds() const { return line_.seconds(); }
+  /// Of `--time`; absent: as long as it takes.
+  [[nodiscard]] static std::optional<double> seconds_left() {
+    return InterruptGuard::seconds_left();
+  }
 
  private:
+  void estimate(double seconds, std::size_t done, std::size_t all);
+
   std::vector<Given> given_;
   StatusLine line_;
+  bool has_estimated_ = false;
 };
 
 }  // namespace stormproof::cli

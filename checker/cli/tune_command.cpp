@@ -6,7 +6,6 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/frame.hpp"
 #include "checker/cli/output_file.hpp"
-#include "checker/cli/streams.hpp"
 #include "checker/cli/tune_files.hpp"
 #include "checker/engines/smt/claims.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
@@ -34,35 +33,6 @@ struct TuneArguments {
   std::string output;        ///< a folder, or one file that ends in ".xml"
   OutputFile svg;
   bool check = false;
-};
-
-/// ", about 3 min left", once there are runs to tell it from.
-std::string time_left(double seconds, std::size_t runs, std::size_t about) {
-  if (runs < 8 || about <= runs) return {};
-  const double left = seconds / static_cast<double>(runs) * static_cast<double>(about - runs);
-  return left < 90 ? fmt::format(", about {:.0f} s left", left)
-                   : fmt::format(", about {:.0f} min left", left / 60);
-}
-
-/// Says once, if it takes more than two minutes, how long about it takes and how to have it
-/// shorter: not everybody has a line that shows progress.
-class Estimate {
- public:
-  void look(double seconds, std::size_t runs, std::size_t about) {
-    constexpr double first_look = 5;
-    constexpr double long_run = 120;
-    if (was_said_ || seconds < first_look || runs < 8) return;
-    was_said_ = true;
-    const double all = seconds / static_cast<double>(runs) * static_cast<double>(about);
-    if (all < long_run) return;
-    say(
-        fmt::format("stormproof: about {} runs take about {:.0f} min here; --budget N makes fewer "
-                    "of the search (default 1200), --samples N of the comparison (default 40)",
-                    about, all / 60));
-  }
-
- private:
-  bool was_said_ = false;
 };
 
 /// What is wrong with the options, or nothing; `arguments.options` are then complete.
@@ -173,15 +143,8 @@ Outcome run(TuneArguments& arguments, Session& session) {
   if (const auto error = refuse_unwritable(*subject)) return *error;
   TuneOutput output{arguments.output};
   if (const auto error = output.prepare()) return Complaint{*error};
-  arguments.options.on_progress = [&session, estimate = Estimate{}](std::string_view doing,
-                                                                    std::size_t runs,
-                                                                    std::size_t about) mutable {
-    estimate.look(session.seconds(), runs, about);
-    return session.proceed([&] {
-      return fmt::format("{}: {} of about {} runs{}", doing, runs, about,
-                         time_left(session.seconds(), runs, about));
-    });
-  };
+  arguments.options.on_progress = session.on_study();
+  arguments.options.seconds_left = Session::seconds_left;
   const auto report = tune::tune(*subject, arguments.options);
   if (!report) return report.error();
   const std::string origin =

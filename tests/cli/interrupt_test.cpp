@@ -123,6 +123,39 @@ const std::array cases{
     Case{"sweep", {"sweep", "big.yaml", "-o", "runs.db"}},
     Case{"reproduce", {"reproduce", "paper", "--samples", "1000"}}};
 
+/// Nobody has to stop a study that has been given its time.
+TEST_F(Interrupt, AStudyKeepsToItsTime) {
+  const Words studies[] = {
+      {"tune", "wifi-5x20-fastdds", "--budget", "1000000", "--samples", "100000"},
+      {"compare-discovery", "wifi-5x20-fastdds", "--samples", "10000"},
+      {"launch", "fleet-4x2x20", "--samples", "10000"},
+      {"sensitivity", "live-5x20"},
+      {"diff", "fastdds-2.6.11", "fastdds-2.9.1"},
+      {"sweep", "big.yaml", "-o", "runs.db"},
+      {"fix", "fleet-4x2x20", "--samples", "100000"}};
+  for (Words study : studies) {
+    study.insert(study.end(), {"--time", "800ms"});
+    const auto started = std::chrono::steady_clock::now();
+    EXPECT_EQ(end_of(start(study)), 3) << study.front() << content("out") << content("err");
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
+    EXPECT_LT(took.count(), 20.0) << study.front();  // on a loaded machine, sanitized
+    EXPECT_NE(content("err").find("--time 800ms is over"), std::string::npos) << study.front();
+  }
+}
+
+TEST_F(Interrupt, FuzzRunsAsManyAsThereIsTimeFor) {
+  EXPECT_EQ(
+      end_of(start({"fuzz", "wifi-5x20", "--property", "safety.conservation", "--time", "2s"})), 0);
+  EXPECT_EQ(content("err"), "");
+}
+
+TEST_F(Interrupt, TimeThatIsNoneIsRefused) {
+  for (const char* time : {"0s", "60", "soon", "-1s"}) {
+    EXPECT_EQ(end_of(start({"simulate", "smallest", "--time", time})), 2) << time;
+    EXPECT_NE(content("err").find("--time"), std::string::npos) << time;
+  }
+}
+
 class InterruptedVerb : public Interrupt, public testing::WithParamInterface<Case> {};
 
 /// At different instants, so at different work.

@@ -54,9 +54,12 @@ const Case cases[] = {
      "compare-discovery \"$S\" --set dds=fastdds-2.6.11 --set 'time_limit=3s' --start-jitter 20ms "
      "--samples 2 --sizes 2,3 --seed 4 --limit 2s"},
     {"launch",
-     "launch \"$S\" --set dds=fastdds-2.6.11 --time 3s --step 20ms --step 50ms --samples 2 --seed "
+     "launch \"$S\" --set dds=fastdds-2.6.11 --limit 3s --step 20ms --step 50ms --samples 2 --seed "
      "4 "
      "--start-jitter 5ms --join"},
+    {"fix",
+     "fix \"$S\" --set dds=fastdds-2.6.11 --set 'limits={completion: 1ms}' --keep vendor --keep "
+     "settings --samples 2 --seed 4 --start-jitter 5ms --export \"it's\""},
     {"coverage",
      "coverage \"$SPECS/observations/fastdds-2.6.11-ap150.jsonl\" --dds fastdds-2.6.11 --wireless "
      "wifi-80211n --channel row --scope np1 --samples 1 --set 'time_limit=3s'"},

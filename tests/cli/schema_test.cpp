@@ -33,7 +33,8 @@ const char* const verbs[] = {"simulate",     "check",
                              "draw",         "properties",
                              "list",         "doctor",
                              "watch",        "compare-discovery",
-                             "museum",       "launch"};
+                             "museum",       "launch",
+                             "fix"};
 
 std::string output_of(const std::string& arguments) {
   return stormproof::files::output_of(STORMPROOF_PROGRAM " " + arguments);

@@ -10,6 +10,7 @@
 
 #include "checker/evidence/doctor/advise.hpp"
 #include "checker/evidence/doctor/expense.hpp"
+#include "checker/evidence/doctor/reasons/began_late.hpp"
 #include "checker/evidence/doctor/reasons/reasons.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 #include "model/config/scenario_file.hpp"
@@ -60,34 +61,6 @@ model::Counts failure_free(const capture::Topology& topology, const capture::Cou
   return counts;
 }
 
-/// Of the missing keys those whose reader says that it has them.
-std::uint64_t known_before(const Conversation& conversation, const capture::Counting& counting) {
-  std::map<std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>, std::int64_t> base;
-  for (const Event& event : conversation.events) {
-    const auto* acknack = event.acknack();
-    if (acknack == nullptr || !event.destination) continue;
-    std::int64_t& known = base[{*event.destination, event.source, event.writer}];
-    known = std::max(known, acknack->missing.base);
-  }
-  return static_cast<std::uint64_t>(
-      std::ranges::count_if(counting.missing, [&](const capture::MissingKey& key) {
-        const auto found = base.find({key.source, key.destination, key.writer});
-        return found != base.end() && key.sequence_number < found->second;
-      }));
-}
-
-/// Participants of which the capture shows something before their first announcement: they were
-/// there before it began.
-std::size_t there_before(const Conversation& conversation) {
-  std::set<GuidPrefix> seen;
-  std::size_t before = 0;
-  for (const Event& event : conversation.events) {
-    if (!seen.insert(event.source).second) continue;
-    if (event.traffic() != capture::Traffic::spdp) ++before;
-  }
-  return before;
-}
-
 std::uint64_t announcements_after(const Conversation& conversation,
                                   const capture::Counting& counting) {
   std::uint64_t later = 0;
@@ -128,13 +101,14 @@ std::vector<Heard> who_heard_whom(const Conversation& conversation) {
 void judge(Report& report, const model::WirelessProfile* channel) {
   const capture::Topology& topology = report.conversation.topology;
   const bool has_keys = report.counting.required > 0;
-  const bool began_late = report.there_before > 0 && report.missing + report.known_before > 0;
+  const auto late = std::ranges::find(report.reasons, "began_late", &Reason::id);
+  const bool began_late = late != report.reasons.end();
   const bool is_incomplete = report.missing > 0 && !began_late;
   if (has_keys) {
-    const Discovered when = discovered(report.conversation, report.counting);
+    const Discovered when = discovered(report.conversation, report.counting, report.limits);
     report.took = expense_of(report.conversation, report.counting, report.failure_free, when,
                              is_incomplete, channel);
-    report.storm = exact::is_storm(report.took, std::nullopt);
+    report.storm = exact::is_storm(report.took, report.limits);
     const auto& last_told_ns = report.counting.last_initial_ns;
     if (when.is_late(when.known_ns) && last_told_ns && !when.is_late(*last_told_ns)) {
       report.known_late_ns = when.known_ns - report.conversation.first_ns;
@@ -150,8 +124,6 @@ void judge(Report& report, const model::WirelessProfile* channel) {
   } else if (topology.participants.size() < 2) {
     report.why_unknown = fmt::format("the capture shows {}; discovery takes two",
                                      report::plural(topology.participants.size(), "participant"));
-  } else if (!has_keys && !report.machines.empty()) {
-    report.health = Health::incomplete;
   } else if (!has_keys) {
     report.why_unknown =
         "the capture shows participants and none of their endpoints: it began when "
@@ -161,9 +133,7 @@ void judge(Report& report, const model::WirelessProfile* channel) {
   } else if (report.storm) {
     report.health = Health::storm;
   } else if (began_late) {
-    report.why_unknown =
-        fmt::format("the capture began when {} had begun, so it does not show what was sent before",
-                    report::plural(report.there_before, "participant"));
+    report.why_unknown = late->sentence;
   } else {
     report.health = do_not_match ? Health::unmatched : Health::healthy;
   }
@@ -194,8 +164,9 @@ const Reason* Report::what_keeps_apart() const {
 }
 
 Report examine(const Conversation& conversation, std::int64_t until_ns,
-               const model::WirelessProfile* channel) {
+               const model::WirelessProfile* channel, const model::Limits& limits) {
   Report report{conversation};
+  report.limits = limits;
   report.counting = capture::count(conversation, until_ns);
   const capture::Counting& counting = report.counting;
   report.products = products_of(conversation.topology);
@@ -227,7 +198,8 @@ Result<Report> diagnose(const Conversation& conversation, const Request& request
     if (!named) return named.error();
     channel = *std::move(named);
   }
-  Report report = examine(conversation, request.until_ns, channel ? &*channel : nullptr);
+  Report report =
+      examine(conversation, request.until_ns, channel ? &*channel : nullptr, request.limits);
   if (report.products.empty()) return report;
   const std::vector<std::string> profiles = profiles_of(report.products.front());
   find_presets(profiles, request, report);

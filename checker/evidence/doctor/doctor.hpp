@@ -14,11 +14,13 @@
 #include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/events.hpp"
 #include "checker/evidence/capture/unknown_types.hpp"
+#include "checker/evidence/doctor/reasons/one_machine.hpp"
 #include "checker/evidence/doctor/reasons/reason.hpp"
 #include "checker/evidence/doctor/symptoms.hpp"
 #include "checker/presentation/document/document.hpp"
 #include "checker/presentation/json/schema_form.hpp"
 #include "model/config/tree/result.hpp"
+#include "model/limits.hpp"
 #include "model/wireless_profile.hpp"
 
 namespace stormproof::doctor {
@@ -31,6 +33,7 @@ struct Request {
   bool advise = true;                 ///< predict what changes would do
   std::size_t budget = 100;           ///< runs of the model that look for changes
   std::size_t threads = 0;            ///< 0: one for each core
+  model::Limits limits{};             ///< what a storm is: `needless` and `late` count
   /// Called now and then; false interrupts.
   std::function<bool(std::string_view doing)> on_progress;
 };
@@ -89,6 +92,7 @@ struct Report {
   capture::Counting counting{};
   Health health = Health::unknown;
   exact::Expense took{};   ///< until everybody had everything
+  model::Limits limits{};  ///< what a storm was held against
   bool storm = false;      ///< `exact::is_storm`, whether it is complete or not
   bool amplified = false;  ///< `exact::is_amplified`: settings would help
   /// Questions about types, answers and what they are acknowledged with are more than all else.
@@ -135,7 +139,8 @@ struct Report {
 /// What the capture alone says: no preset, no advice. Without a channel messages stand for airtime.
 [[nodiscard]] Report examine(const capture::Conversation& conversation,
                              std::int64_t until_ns = INT64_MAX,
-                             const model::WirelessProfile* channel = nullptr);
+                             const model::WirelessProfile* channel = nullptr,
+                             const model::Limits& limits = {});
 
 /// All of it. An error if the request names an unknown profile.
 [[nodiscard]] model::config::Result<Report> diagnose(const capture::Conversation& conversation,

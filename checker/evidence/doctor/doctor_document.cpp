@@ -84,12 +84,6 @@ std::string answer(const Report& report) {
         return fmt::format("INCOMPLETE{}: {}.", apart->probability < 1 ? ", probably" : "",
                            apart->sentence);
       }
-      if (report.counting.required == 0) {
-        return fmt::format(
-            "INCOMPLETE: nothing but announcements was sent, by {} with the identity of one "
-            "machine.",
-            plural(report.machines.front().hosts.size(), "host"));
-      }
       return fmt::format("INCOMPLETE{}: {}; {}.", report.storm ? ", and a storm" : "",
                          completeness(report), sent);
     case Health::unknown:
@@ -328,7 +322,7 @@ report::Document document_of(const Report& report, const Request& request) {
   if (!report.reasons.empty()) document.blocks.emplace_back(why_apart(report));
   if (!report.conversation.remarks.empty()) document.blocks.emplace_back(left_out(report));
   document.blocks.emplace_back(messages(report));
-  report::add_definition(document.blocks, report.storm, std::nullopt);
+  report::add_definition(document.blocks, report.storm, report.limits);
   if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   document.blocks.emplace_back(what_to_change(report));
   if (!report.heard.empty()) document.blocks.emplace_back(heard(report));
@@ -347,7 +341,7 @@ report::Document glance_at(const Report& report, std::int64_t now_ns) {
   document.blocks.emplace_back(who(report));
   const model::Counts last = of_last_second(report, now_ns);
   document.blocks.emplace_back(counts_table(report, &last));
-  report::add_definition(document.blocks, report.storm, std::nullopt);
+  report::add_definition(document.blocks, report.storm, report.limits);
   if (!report.reasons.empty()) document.blocks.emplace_back(why_apart(report));
   if (!report.causes.empty()) document.blocks.emplace_back(why(report));
   return document;

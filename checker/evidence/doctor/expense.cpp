@@ -150,8 +150,9 @@ std::int64_t last_start_ns(const Conversation& conversation) {
 
 }  // namespace
 
-Discovered discovered(const Conversation& conversation, const Counting& counting) {
-  return {last_start_ns(conversation) + exact::late_limit(std::nullopt).count(),
+Discovered discovered(const Conversation& conversation, const Counting& counting,
+                      const std::optional<model::Limits>& limits) {
+  return {last_start_ns(conversation) + exact::late_limit(limits).count(),
           known_ns(conversation, counting)};
 }
 

@@ -10,6 +10,7 @@
 #include "checker/engines/exact/storm.hpp"
 #include "checker/evidence/capture/counting.hpp"
 #include "model/counts.hpp"
+#include "model/limits.hpp"
 #include "model/wireless_profile.hpp"
 
 namespace stormproof::doctor {
@@ -22,7 +23,8 @@ struct Discovered {
   [[nodiscard]] bool is_late(std::int64_t time_ns) const { return time_ns > last_in_time_ns; }
 };
 [[nodiscard]] Discovered discovered(const capture::Conversation& conversation,
-                                    const capture::Counting& counting);
+                                    const capture::Counting& counting,
+                                    const std::optional<model::Limits>& limits);
 
 /// Until then; `incomplete` if somebody lacks a descriptor. `failure_free` is what the same
 /// participants need.

@@ -109,7 +109,6 @@ class Diagnosis {
     readers_that_ask_again();
     announcements();
     lookups();
-    one_machine();
     silence();
     std::ranges::stable_sort(causes_, std::ranges::greater{}, &Cause::messages);
     return std::move(causes_);
@@ -226,31 +225,6 @@ class Diagnosis {
         "the property fastdds.type_propagation = registration_only of every participant");
   }
 
-  /// Only if they found nobody: without a list of interfaces it does no harm.
-  void one_machine() {
-    if (counting_.required > 0) return;
-    for (const OneMachine& one : one_machines(conversation_.topology)) {
-      std::set<std::string> addresses;
-      std::uint64_t participants = 0;
-      for (const capture::Participant& other : conversation_.topology.participants) {
-        if (other.machine != one.identity) continue;
-        ++participants;
-        for (const capture::Address& address : other.addresses) {
-          addresses.insert(to_string(address));
-        }
-      }
-      add("same_machine_id", counting_.counts.spdp(),
-          fmt::format(
-              "{} on {} ({}) announce themselves as on one machine ({}, PID_MACHINE_ID of "
-              "DATA(p)): Fast DDS from 3.2 on takes their hosts for one, and with a list of "
-              "interfaces sends the others nothing but announcements.",
-              plural(participants, "participant"), plural(one.hosts.size(), "host"),
-              fmt::join(addresses, ", "), one.identity),
-          "an /etc/machine-id of its own on each host or in each container (it is copied with "
-          "images)");
-    }
-  }
-
   void silence() {
     const Silence found = find_silence(conversation_, counting_);
     std::string names;
@@ -277,18 +251,6 @@ class Diagnosis {
 };
 
 }  // namespace
-
-std::vector<OneMachine> one_machines(const capture::Topology& topology) {
-  std::map<std::string, std::set<std::size_t>> hosts;
-  for (const capture::Participant& one : topology.participants) {
-    if (!one.machine.empty()) hosts[one.machine].insert(one.host);
-  }
-  std::vector<OneMachine> found;
-  for (auto& [identity, some] : hosts) {
-    if (some.size() > 1) found.push_back({identity, std::move(some)});
-  }
-  return found;
-}
 
 std::vector<Cause> causes(const Conversation& conversation, const Counting& counting,
                           const model::Counts& failure_free) {

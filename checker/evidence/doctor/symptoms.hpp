@@ -4,21 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
 #include <string>
 #include <vector>
 
 #include "checker/evidence/capture/counting.hpp"
 
 namespace stormproof::doctor {
-
-/// Hosts that announce the identity of one machine. From 3.2 on Fast DDS takes them for one host;
-/// with a list of interfaces it then sends the others nothing.
-struct OneMachine {
-  std::string identity;
-  std::set<std::size_t> hosts;
-};
-[[nodiscard]] std::vector<OneMachine> one_machines(const capture::Topology& topology);
 
 /// One thing that causes messages.
 struct Cause {

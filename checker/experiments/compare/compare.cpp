@@ -6,7 +6,6 @@
 
 #include <fmt/core.h>
 
-#include "checker/experiments/tune/tune.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
@@ -76,8 +75,9 @@ class Comparison {
   Comparison(const Request& request, const SpecPath& specs)
       : request_{request},
         specs_{specs},
-        runner_{request.threads, [this](std::size_t, std::size_t) {
-                  return !request_.on_progress || request_.on_progress(doing_);
+        runner_{request.threads, [this](std::size_t runs, std::size_t) {
+                  return !request_.on_progress ||
+                         request_.on_progress(doing_, runs, std::max(runs, about_));
                 }} {}
 
   Result<Report> run() {
@@ -89,8 +89,16 @@ class Comparison {
     report_.validated = *std::move(validated);
     settle();
     if (const auto error = add_tuned()) return *error;
-    for (const Candidate& one : report_.candidates.list) report_.rows.push_back({one, {}, {}, {}});
-    for (const std::uint32_t size : report_.sizes) run_size(size);
+    const std::size_t sizes = report_.sizes.size();
+    for (const Candidate& one : report_.candidates.list) {
+      report_.rows.push_back({one, std::vector<Cell>(sizes), {}, {}});
+    }
+    about_ = report_.rows.size() * sizes * report_.samples;
+    // The own size first: it is what was asked, if there is no time for all.
+    run_size(report_.own_index());
+    for (std::size_t k = 0; k < sizes; ++k) {
+      if (k != report_.own_index()) run_size(k);
+    }
     report_.interrupted = report_.interrupted || runner_.stopped();
     return std::move(report_);
   }
@@ -122,45 +130,21 @@ class Comparison {
   /// Settings of the scenario's library that a search finds, as one more candidate.
   std::optional<InputError> add_tuned() {
     if (request_.tune_budget == 0) return std::nullopt;
-    Candidate made;
-    made.id = "tuned";
-    made.name = "tuned";
-    made.change = "the settings that a short search finds for the scenario as it is";
-    made.wireless = report_.candidates.scenario.wireless;
-    auto subject = tune::read_subject(request_.scenario, request_.overrides, "", specs_);
-    if (!subject) {
-      made.skipped = to_string(subject.error());
-      report_.candidates.list.push_back(std::move(made));
-      return std::nullopt;
-    }
-    subject->scenario = report_.candidates.scenario;
-    made.profile = subject->preset;
     tune::Options options;
     options.budget = request_.tune_budget;
     options.samples = 6;
     options.seed = request_.seed;
     options.start_jitter = request_.start_jitter;
     options.threads = request_.threads;
-    options.on_progress = [this](std::string_view doing, std::size_t runs, std::size_t) {
+    options.on_progress = [this](std::string_view doing, std::size_t runs, std::size_t about) {
       return !request_.on_progress ||
-             request_.on_progress(fmt::format("tuning, {}: {} runs", doing, runs));
+             request_.on_progress(fmt::format("tuning, {}", doing), runs, about);
     };
-    const auto tuned = tune::tune(*subject, options);
-    if (!tuned) return tuned.error();
-    if (tuned->answer == tune::Answer::better) {
-      const tune::Row& best = tuned->rows[*tuned->recommended];
-      made.dds = best.scenario.dds;
-      made.change = "settings that a search found: ";
-      for (const tune::Change& change : best.changes) {
-        made.change += fmt::format("{}{} {}", change.key == best.changes.front().key ? "" : ", ",
-                                   change.key.substr(4), change.after);
-      }
-    } else {
-      report_.interrupted = tuned->answer == tune::Answer::interrupted;
-      made.skipped = report_.interrupted ? "interrupted"
-                                         : "no setting was found that clearly shortens discovery";
-    }
-    report_.candidates.list.push_back(std::move(made));
+    auto made =
+        tuned_candidate(report_.candidates, request_.scenario, request_.overrides, options, specs_);
+    if (!made) return made.error();
+    report_.interrupted = made->skipped == interrupted;
+    report_.candidates.list.push_back(*std::move(made));
     return std::nullopt;
   }
 
@@ -169,17 +153,18 @@ class Comparison {
     std::uint64_t seed = 0;
   };
 
-  void run_size(std::uint32_t size) {
+  void run_size(std::size_t at) {
+    const std::uint32_t size = report_.sizes[at];
     doing_ = fmt::format("{} {}", size, words_of(report_.grows));
     std::vector<Instance> instances;
     std::vector<Job> jobs;
     for (std::size_t k = 0; k < report_.rows.size(); ++k) {
       Row& row = report_.rows[k];
-      Cell& cell = row.cells.emplace_back();
+      Cell& cell = row.cells[at];
       cell.size = size;
       instances.push_back(instance_of(report_.candidates, row.candidate, report_.grows, size));
       cell.not_run = instances.back().refused;
-      if (cell.not_run.empty() && row.breaks_at && size != report_.own_size) {
+      if (cell.not_run.empty() && row.breaks_at && size > *row.breaks_at) {
         cell.not_run = fmt::format("breaks at {}", *row.breaks_at);
       }
       if (!cell.not_run.empty()) continue;
@@ -190,21 +175,22 @@ class Comparison {
                                 request_.start_jitter);
     });
     for (std::size_t k = 0; k < runs.size(); ++k) {
-      if (runs[k]) report_.rows[jobs[k].row].cells.back().runs.push_back(*std::move(runs[k]));
+      if (runs[k]) report_.rows[jobs[k].row].cells[at].runs.push_back(*std::move(runs[k]));
     }
     for (std::size_t k = 0; k < report_.rows.size(); ++k) {
       Row& row = report_.rows[k];
-      Cell& cell = row.cells.back();
+      Cell& cell = row.cells[at];
       cell.interrupted = cell.not_run.empty() && cell.runs.size() < report_.samples;
       describe_runs(cell, instances[k].scenario);
-      if (cell.interrupted && cell.runs.empty()) cell.not_run = "interrupted";
-      if (cell.breaks && !row.breaks_at) row.breaks_at = size;
+      if (cell.interrupted && cell.runs.empty()) cell.not_run = interrupted;
+      if (cell.breaks) row.breaks_at = std::min(row.breaks_at.value_or(size), size);
     }
   }
 
   const Request& request_;
   const SpecPath& specs_;
   std::string doing_;
+  std::size_t about_ = 0;
   trials::Runner runner_;
   Report report_;
 };
@@ -227,6 +213,39 @@ const char* words_of(Figure figure) {
 
 std::size_t Report::own_index() const {
   return static_cast<std::size_t>(std::ranges::find(sizes, own_size) - sizes.begin());
+}
+
+Result<Candidate> tuned_candidate(const Candidates& all, const std::string& reference,
+                                  std::span<const std::string> overrides,
+                                  const tune::Options& options, const SpecPath& specs) {
+  Candidate made;
+  made.id = "tuned";
+  made.name = "tuned";
+  made.change = "the settings that a short search finds for the scenario as it is";
+  made.wireless = all.scenario.wireless;
+  auto subject = tune::read_subject(reference, overrides, "", specs);
+  if (!subject) {
+    made.skipped = to_string(subject.error());
+    return made;
+  }
+  subject->scenario = all.scenario;
+  made.profile = subject->preset;
+  const auto tuned = tune::tune(*subject, options);
+  if (!tuned) return tuned.error();
+  if (tuned->answer != tune::Answer::better) {
+    made.skipped = tuned->answer == tune::Answer::interrupted
+                       ? interrupted
+                       : "no setting was found that clearly shortens discovery";
+    return made;
+  }
+  const tune::Row& best = tuned->rows[*tuned->recommended];
+  made.dds = best.scenario.dds;
+  made.change = "settings that a search found: ";
+  for (const tune::Change& change : best.changes) {
+    made.change += fmt::format("{}{} {}", change.key == best.changes.front().key ? "" : ", ",
+                               change.key.substr(4), change.after);
+  }
+  return made;
 }
 
 Result<Report> compare(const Request& request, const SpecPath& specs) {

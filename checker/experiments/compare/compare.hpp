@@ -15,6 +15,7 @@
 #include "checker/experiments/compare/validated.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
+#include "checker/experiments/tune/tune.hpp"
 
 namespace stormproof::compare {
 
@@ -67,7 +68,7 @@ struct Request {
   model::Nanoseconds limit{};   ///< of a run; 0: the scenario's, but not above `longest`
   std::size_t tune_budget = 0;  ///< runs of a search for settings; 0: none
   std::size_t threads = 0;
-  std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+  trials::StudyProgress on_progress;  ///< false interrupts
 };
 
 /// Runs of storms take long, and say nothing new by it.
@@ -87,6 +88,15 @@ struct Report {
 
   [[nodiscard]] std::size_t own_index() const;  ///< in `sizes`
 };
+
+/// Why there are no runs of what was not finished.
+inline constexpr const char* interrupted = "interrupted";
+
+/// Settings of the scenario's library that a search finds, as one more candidate; what it finds
+/// none for says so (`skipped`).
+[[nodiscard]] model::config::Result<Candidate> tuned_candidate(
+    const Candidates& all, const std::string& reference, std::span<const std::string> overrides,
+    const tune::Options& options, const model::config::SpecPath& specs);
 
 /// Errors: the scenario's, a jitter or sizes that it cannot have.
 [[nodiscard]] model::config::Result<Report> compare(const Request& request,

@@ -124,6 +124,9 @@ class Builder {
       document_.answer = answer(where, *best);
     }
     document_.elaboration = furthest();
+    if (report_.interrupted && known == report_.rows.size()) {
+      document_.elaboration += " Not all sizes were run: where each breaks is not known.";
+    }
   }
 
   /// Which way is fastest, and, if that one breaks, which is of those that do not.
@@ -224,6 +227,7 @@ class Builder {
                               report::count_figure(figure_of(cell, Figure::messages).median)));
       }
       std::string where = row.breaks_at ? std::to_string(*row.breaks_at) : "not here";
+      if (!is_known(row) && !row.breaks_at) where = "?";
       if (!has_runs(row)) where = "–";
       line.cells.emplace_back(where);
       table.rows.push_back(std::move(line));

@@ -51,10 +51,11 @@ std::string server_environment(const Candidate& candidate, bool is_super) {
   return text;
 }
 
-std::string environment_with(const Candidate& candidate, vendor::Vendor whose,
-                             const std::string& xml) {
+std::string environment_with(const Candidate& candidate, const DdsProfile& dds,
+                             const tune::Subject& subject, const std::string& xml) {
   std::string text = head(candidate);
-  for (const std::string& line : tune::how_to_load(whose, xml)) text += line + "\n";
+  for (const std::string& line : tune::prerequisites(subject, dds)) text += "# " + line + "\n";
+  for (const std::string& line : tune::how_to_load(subject.vendor, xml)) text += line + "\n";
   return text;
 }
 
@@ -64,9 +65,9 @@ std::string plain_environment(const Candidate& candidate) {
          "unset ROS_DISCOVERY_SERVER ROS_SUPER_CLIENT\n";
 }
 
-/// The XML of a profile that is built on a preset.
-Result<std::string> xml_of(const Candidate& candidate, const DdsProfile& dds, vendor::Vendor whose,
-                           const SpecPath& specs) {
+/// The library whose file is written: that of a profile that is built on a preset.
+Result<tune::Subject> subject_of(const Candidate& candidate, const DdsProfile& dds,
+                                 vendor::Vendor whose, const SpecPath& specs) {
   const auto base = model::config::read_dds_profile(candidate.profile, {}, specs);
   if (!base) return base.error();
   tune::Subject subject;
@@ -78,9 +79,7 @@ Result<std::string> xml_of(const Candidate& candidate, const DdsProfile& dds, ve
     subject.base.allow_multicast =
         always ? model::AllowMulticast::spdp : model::AllowMulticast::always;
   }
-  const std::string comment =
-      fmt::format("{}: {} ({}).", candidate.name, candidate.change, candidate.profile);
-  return tune::deployable(subject, dds, comment, specs);
+  return subject;
 }
 
 }  // namespace
@@ -105,10 +104,14 @@ Result<std::vector<DeploymentFile>> deployment_files(const Candidate& candidate,
     files.push_back({environment, plain_environment(candidate)});
     return files;
   }
-  auto xml = xml_of(candidate, dds, *whose, specs);
+  const auto subject = subject_of(candidate, dds, *whose, specs);
+  if (!subject) return subject.error();
+  auto xml = tune::deployable(
+      *subject, dds,
+      fmt::format("{}: {} ({}).", candidate.name, candidate.change, candidate.profile), specs);
   if (!xml) return xml.error();
   files.push_back({xml_name, *std::move(xml)});
-  files.push_back({environment, environment_with(candidate, *whose, xml_name)});
+  files.push_back({environment, environment_with(candidate, dds, *subject, xml_name)});
   return files;
 }
 

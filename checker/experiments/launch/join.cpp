@@ -68,7 +68,7 @@ Join join(trials::Runner& runner, const Scenario& scenario, const Request& reque
     for (std::uint32_t i = fleet; i < with.deployment.size(); ++i) {
       trials::start_later(with.deployment.participants[i], joins);
     }
-    with.time_limit = joins + request.time;
+    with.time_limit = joins + request.limit;
     Among among_with{fleet};
     const auto run = runner.simulate(with, &among_with);
     if (!run) return std::nullopt;

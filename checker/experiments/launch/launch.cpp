@@ -81,19 +81,6 @@ Sample stuck(std::uint64_t seed) {
   return sample;
 }
 
-void describe_runs(Cell& cell) {
-  std::vector<double> completion;
-  std::vector<double> messages;
-  for (const Sample& run : cell.runs) {
-    completion.push_back(statistics::completion_ns(run.discovery_time));
-    messages.push_back(static_cast<double>(run.counts.total()));
-    if (run.health.health == exact::Health::storm) ++cell.storms;
-    if (!run.discovery_time) ++cell.incomplete;
-  }
-  cell.completion = statistics::quantiles(std::move(completion));
-  cell.messages = statistics::quantiles(std::move(messages));
-}
-
 /// What storm.cannot-start says of a setting whose programs take no time, for all start times.
 void prove(Setting& setting, const std::function<bool(std::string_view)>& on_progress) {
   Scenario scenario = setting.scenario;
@@ -112,17 +99,19 @@ void prove(Setting& setting, const std::function<bool(std::string_view)>& on_pro
 class Study {
  public:
   explicit Study(const Request& request)
-      : request_{request}, runner_{request.threads, [this](std::size_t, std::size_t) {
-                                     return goes_on(doing_);
+      : request_{request}, runner_{request.threads, [this](std::size_t runs, std::size_t) {
+                                     return goes_on(doing_, runs);
                                    }} {}
 
   Result<Report> run(const model::config::SpecPath& specs) {
     if (const auto error = settle(specs)) return *error;
     for (Setting& setting : report_.settings) {
-      prove(setting, [this](std::string_view what) { return goes_on(what); });
+      prove(setting, [this](std::string_view what) { return goes_on(what, 0); });
     }
     const auto& own = report_.settings.front().scenario.deployment;
-    for (const Plan& plan : plans_for(own, request_.steps, request_.time)) run_plan(plan);
+    const std::vector<Plan> plans = plans_for(own, request_.steps, request_.limit);
+    about_ = plans.size() * report_.settings.size() * request_.samples;
+    for (const Plan& plan : plans) run_plan(plan);
     if (request_.join) {
       doing_ = "one robot more";
       for (const Setting& setting : report_.settings) {
@@ -134,8 +123,8 @@ class Study {
   }
 
  private:
-  [[nodiscard]] bool goes_on(std::string_view what) const {
-    return !request_.on_progress || request_.on_progress(what);
+  [[nodiscard]] bool goes_on(std::string_view what, std::size_t runs) const {
+    return !request_.on_progress || request_.on_progress(what, runs, std::max(runs, about_));
   }
 
   std::optional<InputError> settle(const model::config::SpecPath& specs) {
@@ -151,13 +140,11 @@ class Study {
                                               trials::with_usual_hosts(request_.overrides), specs);
       if (!scenario) return scenario.error();
     }
-    scenario->time_limit = request_.time;
+    scenario->time_limit = request_.limit;
     scenario->run_until = model::RunUntil::completion;
     report_.settings.push_back({"as_it_is", "as it is", *scenario, {}, {}});
-    model::DdsProfile& dds = scenario->dds;
-    if (model::traits_of(dds).writer == model::Writer::stateful &&
-        dds.sedp.piggyback_threshold_bytes < large_send_buffer) {
-      dds.sedp.piggyback_threshold_bytes = large_send_buffer;
+    if (auto dds = with_large_send_buffer(scenario->dds)) {
+      scenario->dds = *std::move(dds);
       report_.settings.push_back({"large_send_buffer", "sendBufferSize 4 MB", *scenario, {}, {}});
     }
     return std::nullopt;
@@ -170,17 +157,16 @@ class Study {
     auto runs = runner_.run(request_.samples * row.cells.size(), [&](std::size_t k) {
       const Scenario& base = report_.settings[k / request_.samples].scenario;
       const std::uint64_t seed = request_.seed + k % request_.samples;
-      const auto scenario = planned(runner_, base, plan, seed, request_.start_jitter);
-      if (scenario) return trials::sample_run(runner_, *scenario, seed, {});
-      return runner_.stopped() ? std::nullopt : std::optional{stuck(seed)};
+      return sample_plan(runner_, base, plan, seed, request_.start_jitter);
     });
+    std::vector<std::vector<Sample>> by_setting(row.cells.size());
     std::vector<Nanoseconds> last;
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (!runs[k]) continue;
       last.push_back(runs[k]->health.last_start);
-      row.cells[k / request_.samples].runs.push_back(*std::move(runs[k]));
+      by_setting[k / request_.samples].push_back(*std::move(runs[k]));
     }
-    for (Cell& cell : row.cells) describe_runs(cell);
+    for (std::size_t s = 0; s < by_setting.size(); ++s) row.cells[s] = cell_of(by_setting[s]);
     std::ranges::sort(last);
     if (!last.empty()) row.last_start = last[last.size() / 2];
     report_.rows.push_back(std::move(row));
@@ -188,11 +174,44 @@ class Study {
 
   const Request& request_;
   std::string doing_;
+  std::size_t about_ = 0;
   trials::Runner runner_;
   Report report_;
 };
 
 }  // namespace
+
+Cell cell_of(std::vector<Sample> runs) {
+  Cell cell;
+  std::vector<double> completion;
+  std::vector<double> messages;
+  for (const Sample& run : runs) {
+    completion.push_back(statistics::completion_ns(run.discovery_time));
+    messages.push_back(static_cast<double>(run.counts.total()));
+    if (run.health.health == exact::Health::storm) ++cell.storms;
+    if (!run.discovery_time) ++cell.incomplete;
+  }
+  cell.runs = std::move(runs);
+  cell.completion = statistics::quantiles(std::move(completion));
+  cell.messages = statistics::quantiles(std::move(messages));
+  return cell;
+}
+
+std::optional<Sample> sample_plan(trials::Runner& runner, const Scenario& scenario,
+                                  const Plan& plan, std::uint64_t seed, Nanoseconds start_jitter) {
+  const auto drawn = planned(runner, scenario, plan, seed, start_jitter);
+  if (drawn) return trials::sample_run(runner, *drawn, seed, {});
+  return runner.stopped() ? std::nullopt : std::optional{stuck(seed)};
+}
+
+std::optional<model::DdsProfile> with_large_send_buffer(model::DdsProfile dds) {
+  if (model::traits_of(dds).writer != model::Writer::stateful ||
+      dds.sedp.piggyback_threshold_bytes >= large_send_buffer) {
+    return std::nullopt;
+  }
+  dds.sedp.piggyback_threshold_bytes = large_send_buffer;
+  return dds;
+}
 
 std::optional<Report::Place> Report::best(std::optional<std::size_t> setting) const {
   std::optional<Place> best;

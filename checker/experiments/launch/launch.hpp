@@ -22,14 +22,14 @@ namespace stormproof::launch {
 struct Request {
   std::string scenario;  ///< as it was given
   std::vector<std::string> overrides;
-  model::Nanoseconds time{60'000'000'000};      ///< what takes longer is not complete
+  model::Nanoseconds limit{60'000'000'000};     ///< what takes longer is not complete
   std::vector<model::Nanoseconds> steps;        ///< of spreads
   std::size_t samples = 5;                      ///< runs of each plan and setting
   std::uint64_t seed = 0;                       ///< run k of each has seed + k
   model::Nanoseconds start_jitter{10'000'000};  ///< each process starts up to this much later
   bool join = false;                            ///< also what one more robot costs
   std::size_t threads = 0;
-  std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+  trials::StudyProgress on_progress;  ///< false interrupts
 };
 
 /// What is set, beside the plan.
@@ -53,6 +53,18 @@ struct Cell {
 
   [[nodiscard]] bool completes() const { return !runs.empty() && completion.max.has_value(); }
 };
+
+[[nodiscard]] Cell cell_of(std::vector<trials::Sample> runs);
+
+/// One run of the scenario under a plan; not complete if a wave of it never is; nothing if it was
+/// stopped.
+[[nodiscard]] std::optional<trials::Sample> sample_plan(trials::Runner& runner,
+                                                        const model::Scenario& scenario,
+                                                        const Plan& plan, std::uint64_t seed,
+                                                        model::Nanoseconds start_jitter);
+
+/// The profile with a send buffer of 4 MB; nothing if it has that already, or no such setting.
+[[nodiscard]] std::optional<model::DdsProfile> with_large_send_buffer(model::DdsProfile dds);
 
 struct Row {
   Plan plan;

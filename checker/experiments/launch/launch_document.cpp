@@ -91,7 +91,7 @@ void add_head(report::Document& document, const Report& report, const Request& r
   document.tone = report.interrupted || !best ? Tone::warn : Tone::info;
   if (!best) {
     document.answer = fmt::format("Under no plan all runs are complete within {}. Deployed is {}.",
-                                  report::duration(request.time), deployed_text(report));
+                                  report::duration(request.limit), deployed_text(report));
     return;
   }
   const Row& row = report.rows[best->row];
@@ -127,7 +127,7 @@ Table table_of(const Report& report, const Request& request) {
   }
   table.wide = true;
   table.caption = fmt::format("from the first start until everybody knows everybody; limit {}",
-                              report::duration(request.time));
+                              report::duration(request.limit));
   for (std::size_t k = 0; k < report.rows.size(); ++k) {
     const Row& row = report.rows[k];
     Table::Row line{{(k == 0 ? "→ " : "") + words_of(row.plan),

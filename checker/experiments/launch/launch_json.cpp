@@ -85,7 +85,7 @@ void describe(V& v, const ReportOf& shown) {
   }
   const auto best = report.best();
   v("scenario", shown.request.scenario);
-  v("limit_ns", shown.request.time);
+  v("limit_ns", shown.request.limit);
   v("wanted", shown.request.samples);
   v("seed", shown.request.seed);
   v("start_jitter_ns", shown.request.start_jitter);

@@ -5,10 +5,12 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,10 @@ namespace stormproof::trials {
 /// Told how many jobs are finished, of how many; returning false stops all. Called by one thread at
 /// a time, after each job and now and then within one; `finished` never decreases.
 using Progress = std::function<bool(std::size_t finished, std::size_t all)>;
+
+/// The same for a study: what it is doing, its runs so far, and about how many in all.
+using StudyProgress =
+    std::function<bool(std::string_view doing, std::size_t runs, std::size_t about)>;
 
 /// As many as the machine has cores, at least one.
 [[nodiscard]] std::size_t core_count();
@@ -61,6 +67,8 @@ class Runner {
 
   /// Whether progress said no.
   [[nodiscard]] bool stopped() const { return stopped_; }
+  /// How many jobs like those so far fit into `seconds` by the clock; at least one.
+  [[nodiscard]] std::size_t fitting(double seconds) const;
   /// Jobs that returned true, by all calls.
   [[nodiscard]] std::size_t finished() const { return finished_; }
 
@@ -73,6 +81,8 @@ class Runner {
   std::atomic<std::size_t> finished_;
   std::size_t all_;
   std::atomic<bool> stopped_ = false;
+  std::size_t ran_ = 0;                           ///< jobs, in all calls
+  std::chrono::steady_clock::duration worked_{};  ///< in all calls
 };
 
 /// The results that are there, in their order.

@@ -29,6 +29,10 @@ namespace {
 constexpr std::size_t search_samples = 12;
 /// Settings of the front that are looked at closely.
 constexpr std::size_t most_shown = 8;
+/// Fewer runs of a setting say nothing.
+constexpr std::size_t least_samples = 6;
+/// Of the time that is left, what runs are planned for: some take longer than those before.
+constexpr double careful = 0.7;
 /// Distance between the sets of seeds.
 constexpr std::uint64_t next_seeds = 1'000'000;
 /// A run of the search may take so many times as long as an unchanged one (median). A setting whose
@@ -125,7 +129,8 @@ class Study {
       }
     }
     share_out();
-    about_ = options_.budget + 20 * most_shown * report_.chosen.count / 2;
+    report_.budget = options_.budget;
+    about_ = all_runs();
     Archive archive{problem_, scenario().time_limit, runner_};
     const std::vector<Point> unchanged{report_.space.unchanged()};
     if (!archive.extend(unchanged, report_.searched)) return false;
@@ -142,13 +147,40 @@ class Study {
     const double median = cost_of(outcomes).completion;
     const double limit = static_cast<double>(scenario().time_limit.count());
     report_.search_limit = Nanoseconds{std::llround(std::clamp(patience * median, 1.0, limit))};
+    fit_into_time();
     return true;
+  }
+
+  /// About how many runs there will be.
+  [[nodiscard]] std::size_t all_runs() const {
+    return report_.budget + 10 * shown_ * report_.chosen.count +
+           (shown_ + 3) * report_.compared.count;
+  }
+
+  /// Fewer runs if there is no time for all: first of each setting, then of the search, then
+  /// settings of the front.
+  void fit_into_time() {
+    const auto left = options_.seconds_left ? options_.seconds_left() : std::nullopt;
+    if (!left) return;
+    const std::size_t fits = runner_.fitting(careful * *left);
+    const auto lower = [&](std::size_t& number, std::size_t least) {
+      while (all_runs() > fits && number > least) number = std::max(least, number * 3 / 4);
+    };
+    report_.was_fitted = all_runs() > fits;
+    lower(report_.chosen.count, std::min<std::size_t>(search_samples, report_.chosen.count));
+    report_.compared.count = std::min(report_.compared.count, report_.chosen.count);
+    lower(report_.budget, std::min<std::size_t>(200, options_.budget));
+    lower(report_.chosen.count, std::min(least_samples, report_.chosen.count));
+    report_.compared.count = report_.chosen.count;
+    lower(shown_, 1);
+    lower(report_.budget, std::min<std::size_t>(25, options_.budget));
+    about_ = all_runs();
   }
 
   bool search_and_choose() {
     doing_ = "search";
     Archive archive{problem_, report_.search_limit, runner_};
-    report_.found = search(problem_, archive, {options_.budget, report_.searched, options_.seed});
+    report_.found = search(problem_, archive, {report_.budget, report_.searched, options_.seed});
     const auto keep_what_is_known = [&](const std::vector<Point>& front, Seeds basis) {
       report_.settings = archive.settings();
       report_.basis = basis;
@@ -192,7 +224,7 @@ class Study {
                                                 Seeds seeds) const {
     const std::vector<Cost> costs = costs_of(archive, front, seeds);
     std::vector<Point> spread;
-    for (const std::size_t k : spread_out(costs, pareto_front(costs), most_shown)) {
+    for (const std::size_t k : spread_out(costs, pareto_front(costs), shown_)) {
       spread.push_back(front[k]);
     }
     return spread;
@@ -273,6 +305,7 @@ class Study {
   std::map<Point, std::vector<Outcome>> known_;
   const char* doing_ = "unchanged";
   std::size_t about_ = 0;
+  std::size_t shown_ = most_shown;
   trials::Runner runner_;
   bool finished_ = false;
   Report report_;

@@ -27,8 +27,9 @@ struct Options {
   std::vector<std::string> keep;    ///< what every run must keep; empty: all that holds unchanged
   model::Nanoseconds start_jitter;  ///< each participant starts up to this much later
   std::size_t threads = 0;          ///< 0: one for each core
-  /// Called by one thread at a time; `runs` so far and `about` how many in all. False interrupts.
-  std::function<bool(std::string_view doing, std::size_t runs, std::size_t about)> on_progress;
+  /// By the clock: search and comparison are made to fit, if they can be; nothing: all is run.
+  std::function<std::optional<double>()> seconds_left;
+  trials::StudyProgress on_progress;  ///< false interrupts
 };
 
 /// One changed setting.
@@ -80,6 +81,8 @@ struct Report {
   bool is_sampled = false;                ///< runs of one setting differ
   Seeds searched, chosen, compared;       ///< seeds
   std::size_t runs = 0, settings = 0;
+  std::size_t budget = 0;   ///< runs of the search: those asked for, or what there was time for
+  bool was_fitted = false;  ///< not all that was asked for was run: there was no time for it
   SearchResult found;
   std::size_t undone = 0;   ///< changes that were set back because they do not matter
   std::size_t dropped = 0;  ///< settings of the front that others dominate under new seeds, or

@@ -301,6 +301,13 @@ class Builder {
         by.push_back(fmt::format("{} {}", id, times));
       text += fmt::format("; {} settings were refused ({})", found.rejected, fmt::join(by, ", "));
     }
+    if (report_.was_fitted) {
+      text += fmt::format(
+          "; to keep to --time the search had {} runs and each setting {}, where {} and {} were "
+          "asked for",
+          report::grouped(report_.budget), report_.chosen.count,
+          report::grouped(context_.options.budget), context_.options.samples);
+    }
     if (report_.chosen.count > statistics::fewest_pairs(early_confidence)) {
       text += "; what was clearly worse after a part of its runs was not set back, and had no more";
     }

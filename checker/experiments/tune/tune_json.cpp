@@ -143,6 +143,7 @@ void describe(V& v, const ReportInContext& shown) {
   v("seed", report.basis.first);
   v("wanted", report.basis.count);
   v("runs", report.runs);
+  v("fitted_into_time", report.was_fitted);
   v("tried", report.settings);
   v("rejected", report.found.rejected);
   v("rejected_by", report.found.rejected_by);

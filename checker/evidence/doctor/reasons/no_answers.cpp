@@ -127,8 +127,9 @@ void no_answers(const Contacts& contacts, std::vector<Reason>& found) {
     some_talk = some_talk || contacts.of(k).answers > 0;
   }
   if (!some_talk) {
-    const bool is_told_already = std::ranges::any_of(
-        found, [](const Reason& one) { return one.id == "multicast_filtered"; });
+    const bool is_told_already = std::ranges::any_of(found, [](const Reason& one) {
+      return one.id == "multicast_filtered" || one.id == "same_machine_id";
+    });
     if (!is_told_already) nobody_answers(contacts, found);
     return;
   }

@@ -15,6 +15,7 @@ namespace stormproof::doctor {
 // The rows of the table. Each adds what it finds.
 void different_domains(const Contacts& contacts, std::vector<Reason>& found);
 void one_host_is_heard(const Contacts& contacts, std::vector<Reason>& found);
+void same_machine_id(const Contacts& contacts, std::vector<Reason>& found);
 void no_answers(const Contacts& contacts, std::vector<Reason>& found);
 void unreachable_addresses(const Contacts& contacts, std::vector<Reason>& found);
 void local_host_only(const Contacts& contacts, std::vector<Reason>& found);
@@ -23,5 +24,6 @@ void unequal_qos(const Contacts& contacts, std::vector<Reason>& found);
 void ports_of_peers(const Contacts& contacts, std::vector<Reason>& found);
 void no_number_is_left(const Contacts& contacts, std::vector<Reason>& found);
 void went_away(const Contacts& contacts, std::vector<Reason>& found);
+void began_late(const Contacts& contacts, std::vector<Reason>& found);
 
 }  // namespace stormproof::doctor

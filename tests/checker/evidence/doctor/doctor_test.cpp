@@ -209,9 +209,11 @@ TEST(Doctor, SeesThatHostsSayTheyAreOneMachine) {
   EXPECT_EQ(profiles_of(report.products.front()),
             (std::vector<std::string>{"fastdds-3.2", "fastdds-3.6", "fastdds-server-3.2",
                                       "fastdds-server-3.6"}));
-  ASSERT_NE(find(report, "same_machine_id"), nullptr);
-  EXPECT_NE(find(report, "same_machine_id")->sentence.find("10.88.0.1, 10.88.0.2"),
-            std::string::npos);
+  ASSERT_EQ(report.reasons.size(), 1U) << "no firewall is needed to explain it";
+  EXPECT_EQ(report.what_keeps_apart(), &report.reasons.front());
+  EXPECT_EQ(report.reasons.front().id, "same_machine_id");
+  EXPECT_NE(report.reasons.front().sentence.find("10.88.0.1, 10.88.0.2"), std::string::npos);
+  EXPECT_NE(document_of(report, {}).answer.plain().find("on one machine"), std::string::npos);
   EXPECT_TRUE(diagnosed(shipped("fastdds-3/fastdds362_ap150_simple_np1_ne2_r0")).machines.empty());
 }
 
@@ -270,7 +272,37 @@ TEST(Doctor, ACaptureThatBeganTooLateIsNoVerdict) {
   ASSERT_TRUE(counting.last_initial_ns);
   const Report late = diagnosed(cut(whole, *counting.last_initial_ns - 1'000'000, whole.last_ns));
   EXPECT_EQ(late.health, Health::unknown) << name_of(late.health);
-  EXPECT_FALSE(late.why_unknown.empty());
+  ASSERT_FALSE(late.reasons.empty());
+  EXPECT_EQ(late.reasons.back().id, "began_late");
+  EXPECT_FALSE(late.reasons.back().keeps_apart);
+  EXPECT_EQ(late.why_unknown, late.reasons.back().sentence);
+}
+
+/// A storm is what the user says it is.
+TEST(Doctor, HoldsAStormAgainstTheLimitsThatAreGiven) {
+  const auto conversation = shipped("fastdds2611_ap150_np6_ne30_r0");
+  Request request;
+  request.advise = false;
+  const auto health_with = [&](const model::Limits& limits) {
+    request.limits = limits;
+    const auto report = diagnose(conversation, request);
+    EXPECT_TRUE(report);
+    const std::string text = report::to_text(document_of(*report, request));
+    return std::pair{report->health, text};
+  };
+  EXPECT_EQ(health_with({}).first, Health::storm);
+  model::Limits patient;
+  patient.late = model::Nanoseconds{1'000'000'000'000};
+  EXPECT_EQ(health_with(patient).first, Health::healthy);
+  model::Limits generous;
+  generous.needless = model::Ratio{1'000, 1};
+  EXPECT_EQ(health_with(generous).first, Health::healthy);
+  model::Limits strict;
+  strict.late = model::Nanoseconds{1'000'000};
+  strict.needless = model::Ratio{1, 10};
+  const auto [health, text] = health_with(strict);
+  EXPECT_EQ(health, Health::storm);
+  EXPECT_NE(text.find("1.000 ms"), std::string::npos) << text;
 }
 
 TEST(Doctor, KnowsClientsOfADiscoveryServer) {

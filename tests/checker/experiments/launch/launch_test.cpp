@@ -89,7 +89,7 @@ TEST(Launch, AllAtOnceIsTheShortestProvedPlanWhereAStormCannotStart) {
 
 TEST(Launch, WhatIsNotCompleteInTimeIsNotSoonest) {
   Request request = request_of("fleet-4x2x20");
-  request.time = ms(100);
+  request.limit = ms(100);
   const Report report = report_of(request);
   EXPECT_FALSE(report.best());
   EXPECT_EQ(report.rows.front().cells[0].incomplete, 3U);

@@ -197,6 +197,26 @@ TEST(TuneStudy, InterruptedItTellsTheBestKnown) {
   EXPECT_EQ(study(subject, options).answer, Answer::interrupted);
 }
 
+TEST(TuneStudy, WhatThereIsNoTimeForIsNotAskedFor) {
+  const Subject subject = small_storm();
+  Options options = few_runs();
+  options.budget = 100'000;
+  options.samples = 1'000;
+  options.seconds_left = [] { return std::optional{1.0}; };
+  const Report report = study(subject, options);
+  EXPECT_TRUE(report.was_fitted);
+  EXPECT_NE(report.answer, Answer::interrupted);
+  EXPECT_LT(report.budget, options.budget);
+  EXPECT_LT(report.compared.count, options.samples);
+  const std::string text = report::to_text(
+      document_of(report, {.scenario = "small", .subject = subject, .options = options}));
+  EXPECT_NE(text.find("to keep to --time"), std::string::npos);
+  options.seconds_left = [] { return std::optional{1e9}; };
+  options.budget = 50;
+  options.samples = 6;
+  EXPECT_FALSE(study(subject, options).was_fitted);
+}
+
 /// A row for the queue of the socket only where the channel has one that is smaller.
 TEST(TuneComparison, TheQueueGrowsOnlyInARowOfItsOwn) {
   const Subject unlimited = small_storm();
