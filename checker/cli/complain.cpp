@@ -2,6 +2,8 @@
 // in it reach no terminal.
 #include "checker/cli/complain.hpp"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "checker/cli/streams.hpp"
@@ -25,8 +27,37 @@ std::string visible(std::string_view text) {
   return shown;
 }
 
+namespace {
+
+/// A word of thousands of characters is nobody's: its ends tell which it is.
+std::string with_short_words(const std::string& text) {
+  constexpr std::size_t longest = 400;
+  constexpr std::size_t kept = 60;
+  const auto is_inside = [&](std::size_t k) {  // of a character of several bytes
+    return k < text.size() && (static_cast<unsigned char>(text[k]) & 0xC0U) == 0x80U;
+  };
+  std::string shown;
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (end - begin > longest) {
+      std::size_t head = begin + kept;
+      std::size_t tail = end - kept;
+      while (is_inside(head)) --head;
+      while (is_inside(tail)) ++tail;
+      shown += text.substr(begin, head - begin) + "…" + text.substr(tail, end - tail);
+    } else {
+      shown += text.substr(begin, end - begin);
+    }
+    if (end < text.size()) shown += text[end++];
+    begin = end;
+  }
+  return shown;
+}
+
+}  // namespace
+
 int complain(const std::string& message) {
-  say("stormproof: " + visible(message));
+  say("stormproof: " + with_short_words(visible(message)));
   return bad_input;
 }
 

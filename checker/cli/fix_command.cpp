@@ -53,7 +53,7 @@ std::optional<Complaint> complete(FixArguments& arguments, const model::config::
 std::optional<Complaint> write_files(OutputFolder& folder, const FixArguments& arguments,
                                      const fix::Report& report, fix::Context& context,
                                      const model::config::SpecPath& specs) {
-  if (!report.chosen || report.answer == fix::Answer::interrupted) return std::nullopt;
+  if (!report.chosen || report.interrupted) return std::nullopt;
   const auto files = fix::files_of(report.attempts[*report.chosen], arguments.request, specs);
   if (!files) return Complaint{files.error()};
   for (const compare::DeploymentFile& file : *files) {

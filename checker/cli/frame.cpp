@@ -15,6 +15,7 @@
 #include "checker/cli/durations.hpp"
 #include "checker/cli/examples.hpp"
 #include "checker/cli/memory_limit.hpp"
+#include "checker/cli/narrow_help.hpp"
 #include "checker/cli/overwriting.hpp"
 #include "checker/cli/parse_error.hpp"
 #include "checker/cli/report_files.hpp"
@@ -294,6 +295,18 @@ int Frame::Command::execute() {
   return show(std::get<Answer>(outcome), given);
 }
 
+namespace {
+
+class NarrowFormatter : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    return narrow_help(CLI::Formatter::make_help(app, std::move(name), mode));
+  }
+};
+
+}  // namespace
+
 struct Frame::Parser {
   CLI::App app{"stormproof: will these ROS 2 / DDS participants discover each other in time?"};
   std::deque<Command> commands;
@@ -310,6 +323,7 @@ static std::string version_text() {
 
 Frame::Frame() : parser_{std::make_unique<Parser>()} {
   parser_->app.name("stormproof");
+  parser_->app.formatter(std::make_shared<NarrowFormatter>());
   parser_->app.set_version_flag("--version", version_text);
   parser_->app.require_subcommand(1);
 }
@@ -332,7 +346,7 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   const std::string examples = examples_text(verb.name);
   app->footer(verb.exit_codes +
               "\nAlso 2 if something could not be written, 3 if it was stopped: "
-              "Ctrl-C, --max-memory." +
+              "Ctrl-C, --time, --max-memory." +
               (examples.empty() ? "" : "\n\n" + examples));
   parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
   Command& command = parser_->commands.back();

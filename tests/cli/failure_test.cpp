@@ -300,6 +300,14 @@ TEST_F(Failure, ADamagedTimeIsLeftOutAndSaid) {
   EXPECT_TRUE(says("out", "packet 13")) << content("out");
 }
 
+/// The ends of an endless word tell which it is.
+TEST_F(Failure, AnEndlessWordIsNotRepeated) {
+  EXPECT_EQ(shell("stormproof simulate my.yaml --set " + std::string(5'000, 'a') + "z=1"), 2);
+  EXPECT_LT(content("err").size(), 1'000U);
+  EXPECT_TRUE(says("err", "aaa…aaa")) << content("err");
+  EXPECT_TRUE(says("err", "z")) << content("err");
+}
+
 TEST_F(Failure, CommandsSayTheProgramAsItWasCalled) {
   EXPECT_EQ(shell("stormproof simulate my.yaml --format json"), 0);
   EXPECT_TRUE(says("out", "\"command\": \"stormproof simulate my.yaml\"")) << content("out");

@@ -80,6 +80,10 @@ void expect_examples_that_run(const std::string& command) {
   const std::string help = shell("stormproof " + command + " --help");
   EXPECT_EQ(shell.code, 0);
   EXPECT_EQ(shell("stormproof help " + command), help);
+  std::istringstream in{help};
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("  stormproof ")) EXPECT_LE(line.size(), 100U) << line;
+  }
   const std::vector<std::string> lines = lines_to_type(help);
   EXPECT_GE(lines.size(), 1U) << help;
   EXPECT_LE(lines.size(), 3U) << help;

@@ -120,7 +120,7 @@ const std::array cases{
     Case{"fuzz", {"fuzz", "wifi-5x20", "--runs", "100000", "--property", "safety.conservation"}},
     Case{"tune", {"tune", "wifi-5x20-fastdds", "--budget", "1000000"}},
     Case{"samples", {"simulate", "live-5x20", "--samples", "1000000"}},
-    Case{"sweep", {"sweep", "big.yaml", "-o", "runs.db"}},
+    Case{"sweep", {"sweep", "big.yaml", "-o", "runs.db"}}, Case{"museum", {"museum"}},
     Case{"reproduce", {"reproduce", "paper", "--samples", "1000"}}};
 
 /// Nobody has to stop a study that has been given its time.

@@ -9,7 +9,6 @@
 #include <fmt/core.h>
 #include <pcap.h>
 
-#include "checker/evidence/capture/decompress.hpp"
 #include "checker/evidence/capture/input_stream.hpp"
 #include "checker/evidence/capture/link_layer.hpp"
 
@@ -20,18 +19,21 @@ namespace {
 using model::config::InputError;
 using model::config::Result;
 
-/// The rest of a file, which has to fit below the limit.
-Result<std::vector<std::uint8_t>, std::string> read_all(std::FILE* file, std::size_t limit) {
-  std::vector<std::uint8_t> content;
-  std::array<std::uint8_t, 1U << 16U> room{};
-  while (const std::size_t read = std::fread(room.data(), 1, room.size(), file)) {
-    if (content.size() + read > limit) {
-      return fmt::format("has more than {} MiB of compressed data", limit >> 20U);
-    }
-    content.insert(content.end(), room.begin(), room.begin() + static_cast<std::ptrdiff_t>(read));
-  }
-  if (std::ferror(file) != 0) return std::string{std::strerror(errno)};
-  return content;
+/// A compressed file that is read through its decoder.
+struct PackedFile {
+  InputStream input{};
+  std::vector<std::uint8_t> room = std::vector<std::uint8_t>(1U << 16U);
+  std::shared_ptr<Unpacking> unpacking{};
+};
+
+ssize_t read_unpacked(void* cookie, char* room, std::size_t size) {
+  PackedFile& file = *static_cast<PackedFile*>(cookie);
+  return static_cast<ssize_t>(file.unpacking->read({reinterpret_cast<std::uint8_t*>(room), size}));
+}
+
+int close_packed(void* cookie) {
+  delete static_cast<PackedFile*>(cookie);
+  return 0;
 }
 
 }  // namespace
@@ -44,6 +46,9 @@ Result<CaptureFile> CaptureFile::over(CaptureFile file, std::FILE* stream) {
       pcap_fopen_offline_with_tstamp_precision(stream, PCAP_TSTAMP_PRECISION_NANO, error.data()));
   if (!file.handle_) {
     std::fclose(stream);
+    if (file.unpacking_ && !file.unpacking_->damage().empty()) {
+      return InputError{file.name_, file.unpacking_->damage()};
+    }
     return InputError{file.name_, fmt::format("not a capture: {}; expected pcap or pcapng, plain "
                                               "or compressed as .xz or .gz",
                                               error.data())};
@@ -78,9 +83,23 @@ Result<CaptureFile> CaptureFile::open(const std::string& path) {
     plain.name_ = path;
     return over(std::move(plain), stream->file.release());
   }
-  const auto content = read_all(stream->file.get(), unpack_limit);
-  if (!content) return InputError{path, content.error()};
-  return from_memory(path, *content, unpack_limit);
+  const Compression kind = compression_of(stream->first_bytes());
+  auto packed = std::make_unique<PackedFile>();
+  packed->input = *std::move(stream);
+  packed->unpacking = std::make_shared<Unpacking>(
+      [packed = packed.get()]() -> Bytes {
+        std::vector<std::uint8_t>& room = packed->room;
+        return {room.data(), std::fread(room.data(), 1, room.size(), packed->input.file.get())};
+      },
+      kind, unpack_limit);
+  CaptureFile file;
+  file.name_ = path;
+  file.unpacking_ = packed->unpacking;
+  const cookie_io_functions_t functions{read_unpacked, nullptr, nullptr, close_packed};
+  std::FILE* unpacked = fopencookie(packed.get(), "rb", functions);
+  if (unpacked == nullptr) return InputError{path, std::strerror(errno)};
+  static_cast<void>(packed.release());  // the stream deletes it
+  return over(std::move(file), unpacked);
 }
 
 std::optional<Packet> CaptureFile::next() {
@@ -92,6 +111,7 @@ std::optional<Packet> CaptureFile::next() {
   if (status != 1) {
     damage_ = status == PCAP_ERROR_BREAK ? "" : pcap_geterr(handle_.get());
     if (!unpack_damage_.empty()) damage_ = unpack_damage_;
+    if (unpacking_ && !unpacking_->damage().empty()) damage_ = unpacking_->damage();
     return std::nullopt;
   }
   ++packets_;

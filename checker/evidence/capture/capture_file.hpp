@@ -1,5 +1,5 @@
 // A capture as a sequence of packets with times in nanoseconds: libpcap reads pcap and pcapng,
-// plain files from the disk and compressed ones from memory.
+// compressed ones as they are unpacked.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/bytes.hpp"
+#include "checker/evidence/capture/decompress.hpp"
 #include "model/config/tree/result.hpp"
 
 struct pcap;
@@ -17,7 +18,7 @@ struct pcap;
 namespace stormproof::capture {
 
 /// How much a compressed capture may unpack to, in bytes.
-inline constexpr std::size_t unpack_limit = 1ULL << 30U;
+inline constexpr std::uint64_t unpack_limit = 1ULL << 36U;
 
 struct Packet {
   std::uint64_t number = 0;           ///< from 1 on, as Wireshark shows it
@@ -55,6 +56,7 @@ class CaptureFile {
   std::string name_;
   std::vector<std::uint8_t> content_;  ///< of a file read from memory
   std::unique_ptr<pcap, Closer> handle_;
+  std::shared_ptr<Unpacking> unpacking_;  ///< of a compressed file
   std::string unpack_damage_;
   std::string damage_;
   int link_type_ = 0;

@@ -5,12 +5,27 @@
 #include <array>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include <fmt/core.h>
 #include <lzma.h>
 #include <zlib.h>
 
 namespace stormproof::capture {
+
+/// What became of a step of unpacking.
+enum class Step : std::uint8_t { more, end, cut_off, corrupt, too_large };
+
+class Decoder {
+ public:
+  Decoder() = default;
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+  virtual ~Decoder() = default;
+  /// Fills `room` as far as possible; `written` is how far.
+  virtual Step step(std::span<std::uint8_t> room, std::size_t& written) = 0;
+  [[nodiscard]] virtual std::string_view suffix() const = 0;
+};
 
 namespace {
 
@@ -19,100 +34,90 @@ constexpr std::array<std::uint8_t, 2> gzip_magic{0x1f, 0x8b};
 /// For the dictionary of an xz stream; the largest preset needs 65 MiB.
 constexpr std::uint64_t xz_memory_limit = 256ULL << 20U;
 
-enum class Step : std::uint8_t { more, end, cut_off, corrupt, too_large };
-
 /// liblzma; concatenated streams are its own business.
-class XzDecoder {
+class XzDecoder final : public Decoder {
  public:
-  explicit XzDecoder(Bytes packed) {
+  explicit XzDecoder(Packed packed) : packed_{std::move(packed)} {
     ok_ = lzma_stream_decoder(&stream_, xz_memory_limit, LZMA_CONCATENATED) == LZMA_OK;
-    stream_.next_in = packed.data();
-    stream_.avail_in = packed.size();
   }
-  ~XzDecoder() { lzma_end(&stream_); }
-  XzDecoder(const XzDecoder&) = delete;
-  XzDecoder& operator=(const XzDecoder&) = delete;
+  ~XzDecoder() override { lzma_end(&stream_); }
 
-  /// Fills `room` as far as possible; `written` is how far.
-  Step step(std::span<std::uint8_t> room, std::size_t& written) {
+  Step step(std::span<std::uint8_t> room, std::size_t& written) override {
     if (!ok_) return Step::corrupt;
+    if (stream_.avail_in == 0 && !ended_) {
+      const Bytes more = packed_();
+      stream_.next_in = more.data();
+      stream_.avail_in = more.size();
+      ended_ = more.empty();
+    }
     stream_.next_out = room.data();
     stream_.avail_out = room.size();
-    const lzma_ret result = lzma_code(&stream_, LZMA_FINISH);
+    const lzma_ret result = lzma_code(&stream_, ended_ ? LZMA_FINISH : LZMA_RUN);
     written = room.size() - stream_.avail_out;
     if (result == LZMA_OK) return Step::more;
     if (result == LZMA_STREAM_END) return Step::end;
     if (result == LZMA_MEMLIMIT_ERROR) return Step::too_large;
     return result == LZMA_BUF_ERROR ? Step::cut_off : Step::corrupt;
   }
+  [[nodiscard]] std::string_view suffix() const override { return ".xz"; }
 
  private:
+  Packed packed_;
   lzma_stream stream_ = LZMA_STREAM_INIT;
   bool ok_ = false;
+  bool ended_ = false;
 };
 
 /// zlib; a member that ends may be followed by another one.
-class GzipDecoder {
+class GzipDecoder final : public Decoder {
  public:
-  explicit GzipDecoder(Bytes packed) : rest_{packed} {
+  explicit GzipDecoder(Packed packed) : packed_{std::move(packed)} {
     constexpr int gzip_with_largest_window = 15 + 16;
     ok_ = inflateInit2(&stream_, gzip_with_largest_window) == Z_OK;
   }
-  ~GzipDecoder() { inflateEnd(&stream_); }
-  GzipDecoder(const GzipDecoder&) = delete;
-  GzipDecoder& operator=(const GzipDecoder&) = delete;
+  ~GzipDecoder() override { inflateEnd(&stream_); }
 
-  Step step(std::span<std::uint8_t> room, std::size_t& written) {
+  Step step(std::span<std::uint8_t> room, std::size_t& written) override {
     if (!ok_) return Step::corrupt;
-    constexpr std::size_t most = std::numeric_limits<uInt>::max();
-    const uInt given = static_cast<uInt>(std::min(rest_.size(), most));
-    stream_.next_in = const_cast<Bytef*>(rest_.data());  // zlib does not write to it
+    have(1);
+    const Bytes rest = part(chunk_, used_);
+    const uInt given =
+        static_cast<uInt>(std::min<std::size_t>(rest.size(), std::numeric_limits<uInt>::max()));
+    stream_.next_in = const_cast<Bytef*>(rest.data());  // zlib does not write to it
     stream_.avail_in = given;
     stream_.next_out = room.data();
     stream_.avail_out = static_cast<uInt>(room.size());
     const int result = inflate(&stream_, Z_NO_FLUSH);
     written = room.size() - stream_.avail_out;
-    rest_ = part(rest_, given - stream_.avail_in);
+    used_ += given - stream_.avail_in;
     if (result == Z_STREAM_END) {
-      if (compression_of(rest_) != Compression::gzip) return Step::end;
+      have(gzip_magic.size());
+      if (compression_of(part(chunk_, used_)) != Compression::gzip) return Step::end;
       return inflateReset(&stream_) == Z_OK ? Step::more : Step::corrupt;
     }
     if (result == Z_OK) return Step::more;
     return result == Z_BUF_ERROR ? Step::cut_off : Step::corrupt;
   }
+  [[nodiscard]] std::string_view suffix() const override { return ".gz"; }
 
  private:
-  Bytes rest_;
+  /// Takes more until there are so many bytes, if there are.
+  void have(std::size_t bytes) {
+    while (chunk_.size() - used_ < bytes) {
+      const Bytes more = packed_();
+      if (more.empty()) return;
+      chunk_.erase(chunk_.begin(), chunk_.begin() + static_cast<std::ptrdiff_t>(used_));
+      used_ = 0;
+      chunk_.insert(chunk_.end(), more.begin(), more.end());
+    }
+  }
+
+  Packed packed_;
+  std::vector<std::uint8_t> chunk_;
+  std::size_t used_ = 0;
   z_stream stream_{};
   bool ok_ = false;
 };
-
-template <class Decoder>
-model::config::Result<Unpacked, std::string> run(Decoder& decoder, std::string_view suffix,
-                                                 std::size_t limit) {
-  constexpr std::size_t chunk = 1U << 18U;
-  Unpacked unpacked;
-  std::vector<std::uint8_t> room(chunk);
-  for (Step step = Step::more; step == Step::more;) {
-    std::size_t written = 0;
-    step = decoder.step(room, written);
-    if (unpacked.bytes.size() + written > limit) {
-      return fmt::format("unpacks to more than {} MiB; unpack and split it first", limit >> 20U);
-    }
-    unpacked.bytes.insert(unpacked.bytes.end(), room.begin(),
-                          room.begin() + static_cast<std::ptrdiff_t>(written));
-    if (step == Step::cut_off) unpacked.damage = fmt::format("the {} data is cut off", suffix);
-    if (step == Step::corrupt) unpacked.damage = fmt::format("the {} data is corrupt", suffix);
-    if (step == Step::too_large) {
-      unpacked.damage = fmt::format("the {} data needs more than {} MiB of memory to unpack",
-                                    suffix, xz_memory_limit >> 20U);
-    }
-  }
-  if (unpacked.bytes.empty()) {
-    return unpacked.damage.empty() ? "unpacks to nothing" : unpacked.damage;
-  }
-  return unpacked;
-}
 
 }  // namespace
 
@@ -124,18 +129,58 @@ Compression compression_of(Bytes start) {
   return starts_with(gzip_magic) ? Compression::gzip : Compression::none;
 }
 
+Unpacking::Unpacking(Packed packed, Compression kind, std::uint64_t limit) : limit_{limit} {
+  if (kind == Compression::xz) {
+    decoder_ = std::make_unique<XzDecoder>(std::move(packed));
+  } else {
+    decoder_ = std::make_unique<GzipDecoder>(std::move(packed));
+  }
+}
+
+Unpacking::~Unpacking() = default;
+
+std::size_t Unpacking::read(std::span<std::uint8_t> room) {
+  std::size_t written = 0;
+  while (!has_ended_ && written == 0) {
+    const Step step = decoder_->step(room, written);
+    unpacked_ += written;
+    has_ended_ = step != Step::more;
+    if (step == Step::cut_off) damage_ = fmt::format("the {} data is cut off", decoder_->suffix());
+    if (step == Step::corrupt) damage_ = fmt::format("the {} data is corrupt", decoder_->suffix());
+    if (step == Step::too_large) {
+      damage_ = fmt::format("the {} data needs more than {} MiB of memory to unpack",
+                            decoder_->suffix(), xz_memory_limit >> 20U);
+    }
+    if (unpacked_ <= limit_) continue;
+    damage_ = fmt::format("unpacks to more than {} MiB; unpack and split it first", limit_ >> 20U);
+    has_ended_ = true;
+    is_too_long_ = true;
+    return 0;
+  }
+  return written;
+}
+
 model::config::Result<Unpacked, std::string> unpack(Bytes packed, Compression kind,
                                                     std::size_t limit) {
-  if (kind == Compression::xz) {
-    XzDecoder decoder{packed};
-    return run(decoder, ".xz", limit);
+  if (kind == Compression::none) {
+    if (packed.size() > limit) return fmt::format("has more than {} MiB", limit >> 20U);
+    return Unpacked{{packed.begin(), packed.end()}, {}};
   }
-  if (kind == Compression::gzip) {
-    GzipDecoder decoder{packed};
-    return run(decoder, ".gz", limit);
+  constexpr std::size_t chunk = 1U << 18U;
+  Unpacking unpacking{[rest = packed]() mutable { return std::exchange(rest, Bytes{}); }, kind,
+                      limit};
+  Unpacked unpacked;
+  std::vector<std::uint8_t> room(chunk);
+  while (const std::size_t read = unpacking.read(room)) {
+    unpacked.bytes.insert(unpacked.bytes.end(), room.begin(),
+                          room.begin() + static_cast<std::ptrdiff_t>(read));
   }
-  if (packed.size() > limit) return fmt::format("has more than {} MiB", limit >> 20U);
-  return Unpacked{{packed.begin(), packed.end()}, {}};
+  if (unpacking.is_too_long()) return unpacking.damage();
+  unpacked.damage = unpacking.damage();
+  if (unpacked.bytes.empty()) {
+    return unpacked.damage.empty() ? "unpacks to nothing" : unpacked.damage;
+  }
+  return unpacked;
 }
 
 }  // namespace stormproof::capture

@@ -69,13 +69,14 @@ class Study {
       if (may_try() && !trying_.stopped()) {
         if (const auto error = try_kind(kind)) return *error;
       }
+      if (!goes_on(trying_.finished())) return interrupted();
       if (!may_try() || trying_.stopped()) report_.untried.push_back(kind);
       if (confirm(first)) return std::move(report_);
-      if (judging_.stopped()) break;
+      if (judging_.stopped()) return interrupted();
     }
     take_nearest();
-    if (judging_.stopped() || !report_.untried.empty()) return interrupted();
-    report_.answer = Answer::nothing_cures;
+    if (judging_.stopped()) return interrupted();
+    report_.answer = report_.untried.empty() ? Answer::nothing_cures : Answer::unfinished;
     return std::move(report_);
   }
 
@@ -93,7 +94,7 @@ class Study {
   }
 
   Report interrupted() {
-    report_.answer = Answer::interrupted;
+    report_.chosen = nearest();
     report_.interrupted = true;
     return std::move(report_);
   }
@@ -130,7 +131,8 @@ class Study {
     about_ = trying_.finished() + request_.trials;
     if (made.not_run.empty()) {
       made.runs = runs_of(trying_, made.plan, made.scenario, request_.seed, request_.trials);
-      if (made.runs.runs.size() < request_.trials) made.not_run = compare::interrupted;
+      if (made.runs.runs.size() < request_.trials)
+        made.not_run = may_try() ? compare::interrupted : "no time";
     }
     report_.attempts.push_back(std::move(made));
   }
@@ -319,7 +321,7 @@ const char* name_of(Kind kind) {
 }
 
 const char* name_of(Answer answer) {
-  constexpr std::array names{"fine", "cured", "nothing_cures", "interrupted"};
+  constexpr std::array names{"fine", "cured", "nothing_cures", "unfinished"};
   return names[static_cast<std::size_t>(answer)];
 }
 

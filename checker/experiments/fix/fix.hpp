@@ -57,12 +57,12 @@ enum class Answer : std::uint8_t {
   fine,           ///< nothing has to be changed
   cured,          ///< no run fails any more
   nothing_cures,  ///< of what was tried; the nearest may help
-  interrupted     ///< and nothing is known that cures
+  unfinished      ///< interrupted, or no time for the rest: nothing is known that cures
 };
 [[nodiscard]] const char* name_of(Answer answer);
 
 struct Report {
-  Answer answer = Answer::interrupted;
+  Answer answer = Answer::unfinished;
   compare::Candidates candidates;
   launch::Cell before;
   std::vector<Attempt> attempts;      ///< in the order in which they were tried

@@ -80,7 +80,7 @@ class Builder {
 
   void head() {
     document_.title = "stormproof fix " + request_.scenario;
-    document_.subject = fmt::format("{}: {} tried", request_.scenario, known());
+    document_.subject = fmt::format("{}: {} to change it", request_.scenario, known());
     if (!request_.keep.empty()) {
       std::vector<std::string> kept;
       for (const Kind kind : request_.keep) kept.emplace_back(name_of(kind));
@@ -104,13 +104,14 @@ class Builder {
         document_.answer =
             fmt::format("NOTHING CURES IT: {} of {}. {}", known(), before, nearest_text());
         return;
-      case Answer::interrupted:
+      case Answer::unfinished:
         document_.tone = Tone::warn;
         document_.exit_code = 3;
         document_.answer = report_.before.runs.size() < request_.samples
                                ? std::string{"INTERRUPTED before it was known what it is like."}
-                               : fmt::format("INTERRUPTED after {}: {} before. {}", known(), before,
-                                             nearest_text());
+                               : fmt::format("{} after {}: {} before. {}",
+                                             report_.interrupted ? "INTERRUPTED" : "NO TIME LEFT",
+                                             known(), before, nearest_text());
         return;
     }
   }
@@ -198,10 +199,10 @@ class Builder {
 
   void assumptions() {
     document_.assumptions.emplace_back(fmt::format(
-        "Before and after are {} under the same seeds, which nothing was chosen by; {} were tried "
-        "in this order until something cured: {}.",
-        report::plural(request_.samples, "run"), "kinds of change",
-        "settings, discovery, launch, vendor"));
+        "Before and after are {} under the same seeds, which nothing was chosen by. Kinds of "
+        "change "
+        "are tried in this order until something cures: settings, discovery, launch, vendor.",
+        report::plural(request_.samples, "run")));
     if (request_.start_jitter.count() > 0) {
       document_.assumptions.emplace_back(fmt::format("Each process starts up to {} later.",
                                                      report::duration(request_.start_jitter)));

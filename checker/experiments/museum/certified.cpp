@@ -15,7 +15,9 @@ using props::VerdictKind;
 
 props::Finding finding_of(std::string_view claim, const model::Scenario& scenario,
                           const std::function<bool()>& go_on) {
-  smt::Claims claims;
+  smt::Options solver;
+  solver.interrupted = [&] { return !go_on(); };
+  smt::Claims claims{solver};
   const checker::CheckRequest request{
       .scenario = scenario,
       .claims = claims,

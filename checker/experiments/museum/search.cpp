@@ -64,7 +64,10 @@ class Search {
     model::RunOptions options;
     options.probe = monitor.get();
     options.max_events = most_events;
-    options.on_progress = [&](const model::Progress&) { return !monitor->violation(); };
+    options.on_progress = [&](const model::Progress&) {
+      stopped_ = stopped_ || !go_on_();
+      return !stopped_ && !monitor->violation();
+    };
     const model::RunResult result = simulate(scenario_, options);
     ++found_.runs;
     const bool is_whole = result.end != model::RunEnd::interrupted;
@@ -75,6 +78,7 @@ class Search {
           exhibit_.claim, scenario_, violation->event, violation->time, violation->reason, {}};
       return;
     }
+    if (stopped_) return;
     undecided_ = undecided_ || !is_whole || monitor->is_undecided();
     if (result.discovery_time) {
       found_.latest =

@@ -26,7 +26,7 @@ struct Found {
   std::vector<std::string> assumptions;  ///< of a proof
 };
 
-/// `go_on` is asked before each run; if it says no, the verdict is inconclusive.
+/// `go_on` is asked before each run and within it; if it says no, the verdict is inconclusive.
 [[nodiscard]] Found search(const Exhibit& exhibit, const Variant& variant,
                            const std::function<bool()>& go_on);
 

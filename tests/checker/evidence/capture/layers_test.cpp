@@ -1,5 +1,7 @@
 // The layers at the bottom: capture files, compression, links.
 #include <algorithm>
+#include <fstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -8,6 +10,7 @@
 #include "checker/evidence/capture/link_layer.hpp"
 #include "tests/checker/evidence/capture/gzip.hpp"
 #include "tests/checker/evidence/capture/packets.hpp"
+#include "tests/files.hpp"
 
 namespace stormproof::capture {
 
@@ -112,6 +115,42 @@ TEST(CaptureFile, WhatIsNoCaptureIsRefusedWithItsName) {
   ASSERT_FALSE(missing);
   EXPECT_EQ(to_string(missing.error()), "/no/such/file.pcap: No such file or directory");
   EXPECT_FALSE(CaptureFile::open("/dev/zero"));
+}
+
+/// Larger than what is read at once, in two members of which the second begins within a packet.
+TEST(CaptureFile, CompressedFilesAreReadAsTheyUnpack) {
+  constexpr std::size_t packets = 4'000;
+  PcapFile plain;
+  for (std::size_t k = 0; k < packets; ++k) {
+    Buffer noise(200);
+    for (std::size_t i = 0; i < noise.size(); ++i) {
+      noise[i] = static_cast<std::uint8_t>((k + 1) * (i + 7) * 2'654'435'761U >> 13U);
+    }
+    plain.frame(static_cast<std::int64_t>(k), noise);
+  }
+  const Buffer whole = plain.buffer();
+  const auto middle = whole.begin() + static_cast<std::ptrdiff_t>(whole.size() / 2 + 3);
+  Buffer packed = gzip({whole.begin(), middle});
+  const Buffer second = gzip({middle, whole.end()});
+  packed.insert(packed.end(), second.begin(), second.end());
+  ASSERT_GT(packed.size(), 2U << 16U);
+  const stormproof::files::Folder folder;
+  const std::string path = (folder.path() / "x.pcap.gz").string();
+  const auto packets_of = [&](const Buffer& content) {
+    std::ofstream{path, std::ios::binary}.write(reinterpret_cast<const char*>(content.data()),
+                                                static_cast<std::streamsize>(content.size()));
+    auto file = CaptureFile::open(path);
+    EXPECT_TRUE(file);
+    std::size_t count = 0;
+    while (file->next()) ++count;
+    return std::pair{count, file->damage()};
+  };
+  EXPECT_EQ(packets_of(packed), (std::pair{packets, std::string{}}));
+  packed.resize(packed.size() - 20'000);
+  const auto [count, damage] = packets_of(packed);
+  EXPECT_LT(count, packets);
+  EXPECT_GT(count, packets / 2);
+  EXPECT_EQ(damage, "the .gz data is cut off");
 }
 
 TEST(Decompress, GzipWithSeveralMembersUpToTheLimit) {

@@ -1,0 +1,43 @@
+// Line by line; the parser has put descriptions into columns of their own.
+#include "checker/cli/narrow_help.hpp"
+
+#include <sstream>
+
+namespace stormproof::cli {
+
+namespace {
+
+constexpr std::size_t widest = 100;
+/// Where the parser's descriptions of options begin.
+constexpr std::size_t description = 30;
+
+/// Where the rest of a line goes on.
+std::size_t indent_of(const std::string& line) {
+  const std::size_t first = line.find_first_not_of(' ');
+  const bool is_option = line.size() > first && line[first] == '-' && first < description;
+  return is_option ? description : first;
+}
+
+}  // namespace
+
+std::string narrow_help(const std::string& help) {
+  std::istringstream lines{help};
+  std::string narrow;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(' ');
+    const bool is_example =
+        first != std::string::npos && line.substr(first).starts_with("stormproof ");
+    while (line.size() > widest && !is_example) {
+      const std::size_t indent = indent_of(line);
+      const std::size_t blank = line.rfind(' ', widest);
+      if (blank == std::string::npos || blank <= indent) break;
+      narrow += line.substr(0, blank) + '\n';
+      line = std::string(indent, ' ') + line.substr(blank + 1);
+    }
+    narrow += line + '\n';
+  }
+  if (!help.ends_with('\n') && !narrow.empty()) narrow.pop_back();
+  return narrow;
+}
+
+}  // namespace stormproof::cli

@@ -1,0 +1,12 @@
+// Help that a terminal of usual width shows: descriptions of options break at blanks and go on
+// below where they begin, while examples, which people copy, stay as they are.
+#pragma once
+
+#include <string>
+
+namespace stormproof::cli {
+
+/// No line is wider than 100 columns, if it has a blank to be broken at and is no example.
+[[nodiscard]] std::string narrow_help(const std::string& help);
+
+}  // namespace stormproof::cli
