@@ -29,7 +29,11 @@ std::string narrow_help(const std::string& help) {
         first != std::string::npos && line.substr(first).starts_with("stormproof ");
     while (line.size() > widest && !is_example) {
       const std::size_t indent = indent_of(line);
-      const std::size_t blank = line.rfind(' ', widest);
+      std::size_t blank = line.rfind(' ', widest);
+      if (blank == std::string::npos || blank <= indent) {  // a list of words
+        blank = line.rfind(',', widest - 1);
+        if (blank != std::string::npos) line.insert(++blank, 1, ' ');
+      }
       if (blank == std::string::npos || blank <= indent) break;
       narrow += line.substr(0, blank) + '\n';
       line = std::string(indent, ' ') + line.substr(blank + 1);
