@@ -34,7 +34,9 @@ reproduce::Results run_plan(const ReproduceArguments& arguments, const reproduce
 
 /// The report in all forms; what could not be written, or nothing.
 std::string write_all(const Report& report, const std::string& directory, Answer& answer) {
-  const auto path = [&](const char* name) { return (std::filesystem::path{directory} / name).string(); };
+  const auto path = [&](const char* name) {
+    return (std::filesystem::path{directory} / name).string();
+  };
   answer.files = {{path("paper.txt"), report::Format::text},
                   {path("paper.json"), report::Format::json},
                   {path("paper.html"), report::Format::html},
