@@ -101,8 +101,8 @@ class Builder {
       case Answer::nothing_cures:
         document_.tone = Tone::bad;
         document_.exit_code = 1;
-        document_.answer =
-            fmt::format("NOTHING CURES IT: {} of {}. {}", known(), before, nearest_text());
+        document_.answer = fmt::format("NOTHING CURES IT: {}, and none of {} ends it. {}", before,
+                                       known(), nearest_text());
         return;
       case Answer::unfinished:
         document_.tone = Tone::warn;
