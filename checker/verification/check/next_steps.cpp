@@ -15,7 +15,8 @@ std::vector<report::NextStep> next_steps(const std::string& words, const model::
   switch (outlook.health()) {
     case exact::Health::storm:
       if (!of_a_product) return {which};
-      return {{run + "tune " + words, "the settings of this library that help most"}, which};
+      return {{run + "fix " + words, "what cures it: settings, ways to discover, launch plans"},
+              which};
     case exact::Health::slow_link:
     case exact::Health::waiting:
       return {which};
