@@ -152,6 +152,8 @@ class Probe {
   [[nodiscard]] virtual bool wants_effects() const { return false; }
   /// An effect of a rule is about to happen; `draw composition` names it.
   virtual void effect(fsm::composition::EffectKey) {}
+  /// A condition of a rule is about to be decided; told where effects are.
+  virtual void decided(fsm::composition::EffectKey, bool /*holds*/) {}
   virtual void scheduled(std::uint64_t /*insertion*/, Nanoseconds, EventKind,
                          std::uint32_t /*subject*/) {}
   /// The event was due, but its participant could not send (`sender: stalls`): it is pending still,

@@ -20,6 +20,8 @@ class Watcher {
   virtual ~Watcher() = default;
   /// The effect is about to happen.
   virtual void happens(EffectKey) {}
+  /// A condition is about to be decided.
+  virtual void decides(EffectKey, bool /*holds*/) {}
   /// What to do wrong at the effect, condition or loop.
   [[nodiscard]] virtual Change change_of(EffectKey) const { return Change::none; }
 
@@ -106,7 +108,9 @@ class WatchedWorld {
   template <class Body>
   void when(const Bool& condition, Body&& body, Site site = Site::here()) {
     const Trail outer = std::exchange(trail_, trail_.inside(site));
-    const Change change = watcher_->change_of(trail_.key("when"));
+    const EffectKey key = trail_.key("when");
+    watcher_->decides(key, condition);
+    const Change change = watcher_->change_of(key);
     world_.when(change == Change::negated  ? Bool(!condition)
                 : change == Change::always ? Bool(true)
                                            : condition,
@@ -195,7 +199,7 @@ class WatchedWorld {
   void raise(O, Site site = Site::here()) {
     using Rule = RuleFor<Composition, Happens<O>>;
     effect<O, at_hand>("raise", site, [&](auto& w) {
-      auto inside = around(w, Trail{name_of<Rule>()});
+      auto inside = around(w, Trail{digest_of<Rule>});
       Rule::run(inside);
     });
   }
@@ -227,8 +231,8 @@ class WatchedWorld {
 
   /// Does `act` to the world, with the mistake that is to be made at it.
   template <class Target, Patience patience = can_wait, class Act>
-  void effect(std::string_view kind, Site site, Act act) {
-    const EffectKey key = trail_.inside(site).key(kind, name_of<Target>());
+  void effect(Digest kind, Site site, Act act) {
+    const EffectKey key = trail_.inside(site).key(kind, digest_of<Target>);
     watcher_->happens(key);
     switch (watcher_->change_of(key)) {
       case Change::drop:
@@ -256,10 +260,10 @@ class WatchedWorld {
   }
   /// The start of a timer, as the rule has it (`usual`) or at another time.
   template <class T, class Usual>
-  void start(std::string_view kind, Site site, Usual usual) {
+  void start(Digest kind, Site site, Usual usual) {
     using Other =
         std::conditional_t<std::is_same_v<T, HeartbeatExpiry>, ResponseDelay, HeartbeatPeriod>;
-    const Change change = watcher_->change_of(trail_.inside(site).key(kind, name_of<T>()));
+    const Change change = watcher_->change_of(trail_.inside(site).key(kind, digest_of<T>));
     effect<T>(kind, site, [=](auto& w) {
       if (change == Change::at_once) {
         w.at(w(Now{}), T{});
@@ -272,8 +276,9 @@ class WatchedWorld {
   }
   template <class P, class... Args>
   void call_with(Site site, const Args&... args) {
+    static const Trail beginning{Digest{scope_of<P, Args...>()}};
     effect<P, at_hand>("call", site, [&](auto& w) {
-      auto inside = around(w, Trail{scope_of<P, Args...>()});
+      auto inside = around(w, beginning);
       P::body(inside, args...);
     });
   }

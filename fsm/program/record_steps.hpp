@@ -21,7 +21,7 @@ class StepRecorder {
   Steps record(std::string_view scope, Body&& body) {
     Steps steps;
     Steps* const list = std::exchange(into_, &steps);
-    const composition::Trail trail = std::exchange(trail_, composition::Trail{scope});
+    const composition::Trail trail = std::exchange(trail_, composition::Trail{composition::Digest{scope}});
     const unsigned effects = std::exchange(effects_, 0);
     body();
     effects_ = effects;
@@ -65,7 +65,7 @@ class StepRecorder {
   template <class Body>
   void block(Step step, Site site, Body&& body) {
     const composition::Trail outer = std::exchange(trail_, trail_.inside(site));
-    step.key = trail_.key(word_of(step.what));
+    step.key = trail_.key(composition::Digest{word_of(step.what)});
     step.file = site.file;
     step.line = site.line;
     Steps* const list = std::exchange(into_, &step.body);
@@ -75,7 +75,8 @@ class StepRecorder {
     add(std::move(step));
   }
   [[nodiscard]] EffectKey key_of(Do what, std::string_view target, Site site) const {
-    return trail_.inside(site).key(word_of(what), target);
+    return trail_.inside(site).key(composition::Digest{word_of(what)},
+                                  composition::Digest{target});
   }
   /// The place of the procedure; it is recorded with `body` unless that has been done.
   template <class Body>

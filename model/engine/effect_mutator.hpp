@@ -22,6 +22,9 @@ class EffectMutator final : public fsm::composition::Watcher {
   void happens(fsm::composition::EffectKey key) override {
     if (probe_ != nullptr) probe_->effect(key);
   }
+  void decides(fsm::composition::EffectKey key, bool holds) override {
+    if (probe_ != nullptr) probe_->decided(key, holds);
+  }
   [[nodiscard]] Change change_of(fsm::composition::EffectKey key) const override {
     if (mutation_ == nullptr) return Change::none;
     for (const fsm::composition::EffectMutation& mutation : mutation_->effects) {

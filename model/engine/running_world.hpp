@@ -575,7 +575,7 @@ void run_rule(Host& host, std::uint32_t subject, const typename Host::Packet* pa
   RunningWorld<Host, Rule::owner> world{host, subject, packet, descriptor};
   if constexpr (requires { host.watcher(); }) {
     if (comp::Watcher* watcher = host.watcher(); watcher != nullptr) [[unlikely]] {
-      comp::WatchedWorld watched{world, *watcher, comp::Trail{fsm::name_of<Rule>()}};
+      comp::WatchedWorld watched{world, *watcher, comp::Trail{comp::digest_of<Rule>}};
       Rule::run(watched);
       watcher->go_on();
       return;

@@ -53,6 +53,9 @@ class ProbeList final : public Probe {
   void effect(fsm::composition::EffectKey key) override {
     for (Probe* probe : who_hears(Report::effect)) probe->effect(key);
   }
+  void decided(fsm::composition::EffectKey key, bool holds) override {
+    for (Probe* probe : who_hears(Report::effect)) probe->decided(key, holds);
+  }
   void scheduled(std::uint64_t insertion, Nanoseconds time, EventKind kind,
                  std::uint32_t subject) override {
     for (Probe* probe : who_hears(Report::scheduled, kind))

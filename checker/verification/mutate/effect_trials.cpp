@@ -12,6 +12,8 @@ namespace stormproof::mutate {
 
 namespace {
 
+using fsm::composition::EffectKey;
+using fsm::composition::EffectMutation;
 using model::Nanoseconds;
 
 /// Mutants may schedule events without end.
@@ -66,10 +68,10 @@ model::Scenario draw_disturbed(std::uint64_t seed, model::ImplementationKind kin
   return scenario;
 }
 
-/// Which effects happen.
+/// Which effects happen, and how conditions are decided.
 class EffectProbe final : public model::Probe {
  public:
-  explicit EffectProbe(std::set<fsm::composition::EffectKey>& effects) : effects_{effects} {}
+  explicit EffectProbe(Happened& happened) : happened_{happened} {}
 
   [[nodiscard]] model::Reports reports() const override {
     model::Reports reports;
@@ -77,20 +79,30 @@ class EffectProbe final : public model::Probe {
     return reports;
   }
   [[nodiscard]] bool wants_effects() const override { return true; }
-  void effect(fsm::composition::EffectKey key) override { effects_.insert(key); }
+  void effect(EffectKey key) override { happened_.effects.insert(key); }
+  void decided(EffectKey key, bool holds) override {
+    (holds ? happened_.held : happened_.did_not).insert(key);
+  }
 
  private:
-  std::set<fsm::composition::EffectKey>& effects_;
+  Happened& happened_;
 };
 
-/// Whether a run in which these effects happen can show the mistake. Conditions and loops are asked
-/// even if nothing happens in them.
-bool may_change(const fsm::composition::EffectMutation& mistake,
-                const std::set<fsm::composition::EffectKey>& effects) {
-  using enum fsm::composition::EffectMutation::Change;
-  const bool of_a_block =
-      mistake.change == negated || mistake.change == always || mistake.change == first_only;
-  return of_a_block || effects.contains(mistake.key);
+/// Whether a run in which this happens can show the mistake. Loops are asked even if nothing happens
+/// in them.
+bool may_change(const EffectMutation& mistake, const Happened& happened) {
+  using enum EffectMutation::Change;
+  const bool did_not_hold = happened.did_not.contains(mistake.key);
+  switch (mistake.change) {
+    case first_only:
+      return true;
+    case always:
+      return did_not_hold;
+    case negated:
+      return did_not_hold || happened.held.contains(mistake.key);
+    default:
+      return happened.effects.contains(mistake.key);
+  }
 }
 
 bool same_times(const props::RunLog& one, const props::RunLog& other) {
@@ -120,13 +132,14 @@ const std::vector<EffectTrials::Correct>& EffectTrials::drawn(
     Correct& correct = list.emplace_back();
     correct.scenario =
         seed > plain ? draw_disturbed(seed, implementation) : draw(seed, implementation, {});
-    EffectProbe effects{correct.effects};
+    EffectProbe effects{correct.happened};
     model::trace::ProbeList probes;
     probes.add(correct.log);
     probes.add(effects);
     correct.result = run(correct.scenario, nullptr, probes);
     correct.objections = judged(correct.scenario, nullptr);
   }
+  std::ranges::stable_sort(list, {}, [](const Correct& run) { return run.log.entries().size(); });
   return list;
 }
 
@@ -135,7 +148,7 @@ EffectFindings EffectTrials::try_out(const CatalogueEntry& entry) {
   EffectFindings found;
   for (const Correct& correct : drawn(entry.concerns.front())) {
     if (stopped()) break;
-    if (!may_change(rules->effects.front(), correct.effects)) continue;
+    if (!may_change(rules->effects.front(), correct.happened)) continue;
     props::RunLog log;
     const model::RunResult result = run(correct.scenario, rules, log);
     if (!props::first_difference(log, correct.log)) continue;

@@ -40,6 +40,13 @@ struct EffectFindings {
   Harm harm = Harm::unseen;
 };
 
+/// What of the rules a run comes to.
+struct Happened {
+  std::set<fsm::composition::EffectKey> effects;
+  std::set<fsm::composition::EffectKey> held;     ///< conditions, at least once
+  std::set<fsm::composition::EffectKey> did_not;  ///< conditions that did not hold, at least once
+};
+
 /// May be shared by threads.
 class EffectTrials {
  public:
@@ -55,8 +62,8 @@ class EffectTrials {
     model::Scenario scenario;
     props::RunLog log;
     model::RunResult result;
-    std::set<fsm::composition::EffectKey> effects;  ///< that happen
-    Ids objections;                                 ///< without a mistake
+    Happened happened;
+    Ids objections;  ///< without a mistake
   };
   /// The random scenarios of an implementation, and their correct runs.
   const std::vector<Correct>& drawn(model::ImplementationKind implementation);
