@@ -128,6 +128,7 @@ const std::vector<EffectTrials::Correct>& EffectTrials::drawn(
     model::ImplementationKind implementation) {
   const std::lock_guard lock{drawing_};
   std::vector<Correct>& list = drawn_[model::index_of(implementation)];
+  if (list.size() == runs) return list;
   for (std::uint64_t seed = 1; list.size() < runs && !stopped(); ++seed) {
     Correct& correct = list.emplace_back();
     correct.scenario =
@@ -139,7 +140,8 @@ const std::vector<EffectTrials::Correct>& EffectTrials::drawn(
     correct.result = run(correct.scenario, nullptr, probes);
     correct.objections = judged(correct.scenario, nullptr);
   }
-  std::ranges::stable_sort(list, {}, [](const Correct& run) { return run.log.entries().size(); });
+  const auto length = [](const Correct& correct) { return correct.log.entries().size(); };
+  std::ranges::stable_sort(list, {}, length);
   return list;
 }
 

@@ -65,7 +65,7 @@ class EffectTrials {
     Happened happened;
     Ids objections;  ///< without a mistake
   };
-  /// The random scenarios of an implementation, and their correct runs.
+  /// The random scenarios of an implementation, and their correct runs, the shortest first.
   const std::vector<Correct>& drawn(model::ImplementationKind implementation);
   [[nodiscard]] bool stopped() const { return goes_on_ && !goes_on_(); }
 
