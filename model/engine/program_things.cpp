@@ -30,7 +30,7 @@ using Knobs = TypeList<
     comp::lookup::LooksUpTypes, comp::lookup::FiltersAnswers, comp::lookup::FiltersQuestions,
     comp::lookup::AsksForStreams, comp::lookup::AsksForAll, comp::fastdds::OpensBuiltinFirst,
     comp::control::TopicReplyDelay, comp::control::BuiltinReplyDelay, comp::lookup::ExpiryPeriod,
-    comp::cyclone::MergesQueued, comp::cyclone::HeartbeatInterval,
+    comp::cyclone::MergesQueued, comp::cyclone::TellsFreshAtOnce, comp::cyclone::HeartbeatInterval,
     comp::cyclone::HeartbeatIntervalMax, comp::cyclone::MatchHeartbeatDelay,
     comp::cyclone::AckDelay, comp::cyclone::NackDelay, comp::cyclone::AutoReschedNackDelay,
     comp::cyclone::PreEmptiveAckDelay, comp::cyclone::PreEmptiveRepeatDelay,

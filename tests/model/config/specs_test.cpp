@@ -167,6 +167,7 @@ TEST(Specs, cyclone_dds_has_the_values_of_its_source) {
   DdsProfile expected;
   expected.implementation = ImplementationKind::cyclone;
   expected.allow_multicast = AllowMulticast::by_network;
+  expected.sedp.notification = Notification::fresh_at_once;
   expected.spdp.period = Nanoseconds{8'000'000'000};
   DdsProfile wifi = dds("cyclonedds-0.10");
   EXPECT_FALSE(wifi.unmodelled.empty());
