@@ -42,7 +42,8 @@ INSTANTIATE_TEST_SUITE_P(Case, FoundFault, ::testing::ValuesIn(all_cases()), [](
 });
 
 TEST(FoundFaults, CoverAllKinds) {
-  // Simulated captures do not say what is asked about types; type_lookups_test.cpp edits a real one.
+  // Simulated captures do not say what is asked about types; type_lookups_test.cpp edits a real
+  // one.
   std::set<Fault> covered{Fault::lookup_cause};
   for (const Case& one : all_cases()) covered.insert(one.fault);
   for (std::size_t k = 0; k < fault_count; ++k) {
