@@ -14,8 +14,10 @@ constexpr std::size_t description = 30;
 /// Where the rest of a line goes on.
 std::size_t indent_of(const std::string& line) {
   const std::size_t first = line.find_first_not_of(' ');
-  const bool is_option = line.size() > first && line[first] == '-' && first < description;
-  return is_option ? description : first;
+  if (first == 0 || first >= description) return first;
+  const bool is_row =
+      line[first] == '-' || (line[description - 1] == ' ' && line[description] != ' ');
+  return is_row ? description : first;
 }
 
 }  // namespace
