@@ -49,7 +49,7 @@ std::vector<std::string> commands() {
     for (std::string line; std::getline(help, line);) {
       if (line == "Subcommands:") {
         listed = true;
-      } else if (listed && line.starts_with("  ")) {
+      } else if (listed && line.starts_with("  ") && line[2] != ' ') {
         names.push_back(path + line.substr(2, line.find(' ', 2) - 2));
       }
     }
