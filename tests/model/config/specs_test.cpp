@@ -177,7 +177,10 @@ TEST(Specs, cyclone_dds_has_the_values_of_its_source) {
   DdsProfile newer = dds("cyclonedds-11");
   EXPECT_TRUE(newer.unmodelled.contains("measurements"));
   newer.unmodelled.clear();
-  EXPECT_EQ(newer, expected);
+  DdsProfile pruning = expected;
+  pruning.spdp.initial_prune_delay = Nanoseconds{30'000'000'000};
+  pruning.spdp.discovered_prune_delay = Nanoseconds{60'000'000'000};
+  EXPECT_EQ(newer, pruning);
 
   expected.allow_multicast = AllowMulticast::always;
   DdsProfile wired = dds("cyclonedds-0.10-multicast");

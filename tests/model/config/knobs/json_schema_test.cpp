@@ -58,6 +58,8 @@ TEST(JsonSchemaContent, fast_dds_needs_fewer_keys_and_forbids_the_others) {
   EXPECT_EQ(forbidden["descriptors"], false);
   EXPECT_EQ(forbidden["allow_multicast"], false);
   EXPECT_EQ(forbidden["spdp"]["properties"], nlohmann::json({{"payload_bytes", false},
+                                                             {"initial_prune_delay", false},
+                                                             {"discovered_prune_delay", false},
                                                              {"directed_replies", false},
                                                              {"directed_reply_interval", false}}));
   EXPECT_EQ(forbidden["sedp"]["properties"].size(), 12U + 12U);
@@ -79,7 +81,7 @@ TEST(JsonSchemaContent, cyclone_dds_needs_its_own_keys_and_forbids_the_others) {
   const auto& sedp = schema["properties"]["sedp"]["properties"];
   EXPECT_TRUE(sedp.contains("heartbeat_interval") && sedp.contains("heartbeat_period"));
   EXPECT_EQ(schema["properties"]["allow_multicast"]["enum"],
-            nlohmann::json::array({true, "spdp", "default"}));
+            nlohmann::json::array({true, "spdp", "default", false}));
 }
 
 TEST(JsonSchemaContent, both_forms_of_a_deployment_take_a_schedule) {

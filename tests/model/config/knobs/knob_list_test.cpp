@@ -49,6 +49,9 @@ std::set<std::string> keys_beyond(ImplementationKind one, ImplementationKind oth
 
 TEST(KnobList, cyclone_dds_has_the_settings_of_its_configuration) {
   const std::set<std::string> own{"dds.allow_multicast",
+                                  "dds.peers",
+                                  "dds.spdp.initial_prune_delay",
+                                  "dds.spdp.discovered_prune_delay",
                                   "dds.spdp.directed_replies",
                                   "dds.spdp.directed_reply_interval",
                                   "dds.sedp.heartbeat_interval",
