@@ -137,17 +137,17 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
 
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
   const bool is_read = is_living && property.of_lives &&
-                       model::traits_of(scenario.dds).writer == model::Writer::stateful;
+                       (traits.writer == model::Writer::stateful ||
+                        (traits.has_event_thread && property.about == Vocabulary::rules));
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
   if (is_read) why = {};
   if (!why.empty()) return why;
   if (is_living && property.about != Vocabulary::everything && !is_read) {
-    if (model::traits_of(scenario.dds).has_event_thread) {
-      return "it is stated for participants of Cyclone DDS that nobody forgets, without peers; "
-             "with "
-             "deployment.life or dds.peers only machines, network, results and what rules do are "
-             "checked";
+    if (traits.has_event_thread) {
+      return "it is stated for participants of Cyclone DDS that nobody forgets and that announce "
+             "to no ports (deployment.life, dds.peers)";
     }
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";

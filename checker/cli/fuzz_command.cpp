@@ -102,6 +102,9 @@ Outcome run(FuzzArguments& arguments, Session& session) {
                             {},
                             {}};
   Answer answer;
+  if (arguments.seconds) {
+    answer.notes.emplace_back("stormproof: --seconds is given up; --time 60s says it");
+  }
   write_shrunk(folder, report, context);
   answer.complaint = folder.error().value_or("");
   answer.listing = folder.listing();

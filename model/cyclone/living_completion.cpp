@@ -28,18 +28,18 @@ LivingCompletion::LivingCompletion(RunState& run, const LifeSamples& samples)
   }
 }
 
-/// Everything that the two do not agree on, and whether one knows the other.
+/// Everything that the two do not agree on; whether one knows the other, if that is all.
 std::uint64_t LivingCompletion::lacking(Number pair) const {
   const Pair& ends = run_.topology.pair(pair);
   if (!ends.cross_host || gone_[ends.destination]) return 0;
   if (gone_[ends.source]) return recognised_[pair] ? 1 : 0;
-  std::uint64_t lacking = recognised_[pair] ? 0 : 1;
+  std::uint64_t lacking = 0;
   for (const Stream s : streams) {
     const Set& owned = of(owned_[ends.source], s);
     const Set& known = of(known_[pair], s);
     for (std::size_t d = 0; d < owned.size(); ++d) lacking += owned[d] != known[d] ? 1U : 0U;
   }
-  return lacking;
+  return lacking == 0 && !recognised_[pair] ? 1 : lacking;
 }
 
 void LivingCompletion::count(Number pair) {

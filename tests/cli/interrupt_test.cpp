@@ -147,6 +147,10 @@ TEST_F(Interrupt, FuzzRunsAsManyAsThereIsTimeFor) {
   EXPECT_EQ(
       end_of(start({"fuzz", "wifi-5x20", "--property", "safety.conservation", "--time", "2s"})), 0);
   EXPECT_EQ(content("err"), "");
+  EXPECT_EQ(end_of(start({"fuzz", "smallest", "--property", "safety.conservation", "--runs", "2",
+                          "--seconds", "2"})),
+            0);
+  EXPECT_NE(content("err").find("--seconds is given up; --time 60s says it"), std::string::npos);
 }
 
 TEST_F(Interrupt, TimeThatIsNoneIsRefused) {
