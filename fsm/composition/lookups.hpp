@@ -42,6 +42,8 @@ struct LookupOfDescriptor : Amount {};
 
 /// The reader's participant knows the type of the descriptor now, and is told of it.
 struct TypeIsKnown : Occasion<owner::descriptor> {};
+/// The source of the pair may lack types of the destination, and have all its questions answered.
+struct TypesAreLacked : Occasion<owner::pair> {};
 
 /// Only the first one asks, and only whom it is from.
 struct WaitForType : Procedure {
@@ -59,9 +61,9 @@ struct WaitForType : Procedure {
 };
 /// The source of the pair asks the destination for all types that nobody else was asked for, unless
 /// it waits for an answer.
-struct AskForAll : Procedure {
+struct AskForAll : Rule<Happens<TypesAreLacked>> {
   template <class W>
-  static void body(W& w) {
+  static void run(W& w) {
     w.when(w(AsksForAll{}) && !w(HasAsked{}), [&] {
       w.when(w(FirstOnesWait{}), [&] {
         w.set(HasAsked{}, typename W::Bool(true));
@@ -102,7 +104,7 @@ struct SampleArrives : Rule<Received<LookupSample>> {
           w.perform(LearnType{});
           w.reverse([](auto& back) {
             back.set(HasAsked{}, typename W::Bool(false));
-            back.call(AskForAll{});
+            back.raise(TypesAreLacked{});
           });
         });
         w.when(!is_last, [&] {
@@ -205,7 +207,8 @@ using Timers = TypeList<LookupExpiryDue>;
 using State = TypeList<SamplesSent, GetsSamples, SamplesTold, SamplesAcknowledged, SamplesGot,
                        SamplesQueued, HasAsked>;
 using Packets = TypeList<LookupSample>;
-using Occasions = TypeList<TypeIsKnown, SampleLeaves>;
-using Rules = TypeList<DescriptorStopsWaiting, SampleArrives, SampleIsSent, LookupExpires>;
+using Occasions = TypeList<TypeIsKnown, TypesAreLacked, SampleLeaves>;
+using Rules =
+    TypeList<AskForAll, DescriptorStopsWaiting, SampleArrives, SampleIsSent, LookupExpires>;
 
 }  // namespace stormproof::fsm::composition::lookup

@@ -168,7 +168,7 @@ bool is_complete(const World& w) {
       if (knows == is_dead(w, i, w.now)) return false;
       if (!knows) continue;
       for (const int s : {publications, subscriptions}) {
-        if (w.readers.at({i, s, j}).notified < endpoint_count(w, i, s)) return false;
+        if (w.readers.at({i, s, j}).notified.size() < endpoint_count(w, i, s)) return false;
       }
     }
   }

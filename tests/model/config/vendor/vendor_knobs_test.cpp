@@ -106,6 +106,10 @@ TEST(VendorKnobs, are_in_the_order_of_the_profile) {
     };
     before("max_participants_per_host",
            vendor == Vendor::fastdds ? "match_order" : "allow_multicast");
+    if (vendor == Vendor::cyclonedds) {
+      before("spdp.initial_prune_delay", "sedp.heartbeat_interval");
+      before("spdp.discovered_prune_delay", "sedp.heartbeat_interval");
+    }
     before("spdp.lease",
            vendor == Vendor::fastdds ? "sedp.heartbeat_period" : "sedp.heartbeat_interval");
     std::vector<std::string> found;
