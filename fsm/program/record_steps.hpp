@@ -21,7 +21,8 @@ class StepRecorder {
   Steps record(std::string_view scope, Body&& body) {
     Steps steps;
     Steps* const list = std::exchange(into_, &steps);
-    const composition::Trail trail = std::exchange(trail_, composition::Trail{composition::Digest{scope}});
+    const composition::Trail trail =
+        std::exchange(trail_, composition::Trail{composition::Digest{scope}});
     const unsigned effects = std::exchange(effects_, 0);
     body();
     effects_ = effects;
@@ -75,8 +76,7 @@ class StepRecorder {
     add(std::move(step));
   }
   [[nodiscard]] EffectKey key_of(Do what, std::string_view target, Site site) const {
-    return trail_.inside(site).key(composition::Digest{word_of(what)},
-                                  composition::Digest{target});
+    return trail_.inside(site).key(composition::Digest{word_of(what)}, composition::Digest{target});
   }
   /// The place of the procedure; it is recorded with `body` unless that has been done.
   template <class Body>

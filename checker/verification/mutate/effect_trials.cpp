@@ -88,8 +88,8 @@ class EffectProbe final : public model::Probe {
   Happened& happened_;
 };
 
-/// Whether a run in which this happens can show the mistake. Loops are asked even if nothing happens
-/// in them.
+/// Whether a run in which this happens can show the mistake. Loops are asked even if nothing
+/// happens in them.
 bool may_change(const EffectMutation& mistake, const Happened& happened) {
   using enum EffectMutation::Change;
   const bool did_not_hold = happened.did_not.contains(mistake.key);
