@@ -46,7 +46,7 @@ struct Implementation {
             d.when(!waits, [&] { d.perform(control::OpenTopics{}); });
           });
       w.when(w(lookup::AsksForTypes{}),
-             [&] { w.reverse([](auto& back) { back.raise(lookup::TypesAreLacked{}); }); });
+             [&] { w.reverse([](auto& back) { back.call(lookup::AskForAll{}); }); });
     });
   }
   template <class W>

@@ -42,8 +42,6 @@ struct LookupOfDescriptor : Amount {};
 
 /// The reader's participant knows the type of the descriptor now, and is told of it.
 struct TypeIsKnown : Occasion<owner::descriptor> {};
-/// The source of the pair may lack types of the destination, and have all its questions answered.
-struct TypesAreLacked : Occasion<owner::pair> {};
 
 /// Only the first one asks, and only whom it is from.
 struct WaitForType : Procedure {
@@ -61,9 +59,9 @@ struct WaitForType : Procedure {
 };
 /// The source of the pair asks the destination for all types that nobody else was asked for, unless
 /// it waits for an answer.
-struct AskForAll : Rule<Happens<TypesAreLacked>> {
+struct AskForAll : Procedure {
   template <class W>
-  static void run(W& w) {
+  static void body(W& w) {
     w.when(w(AsksForAll{}) && !w(HasAsked{}), [&] {
       w.when(w(FirstOnesWait{}), [&] {
         w.set(HasAsked{}, typename W::Bool(true));
@@ -104,7 +102,7 @@ struct SampleArrives : Rule<Received<LookupSample>> {
           w.perform(LearnType{});
           w.reverse([](auto& back) {
             back.set(HasAsked{}, typename W::Bool(false));
-            back.raise(TypesAreLacked{});
+            back.call(AskForAll{});
           });
         });
         w.when(!is_last, [&] {
@@ -207,8 +205,7 @@ using Timers = TypeList<LookupExpiryDue>;
 using State = TypeList<SamplesSent, GetsSamples, SamplesTold, SamplesAcknowledged, SamplesGot,
                        SamplesQueued, HasAsked>;
 using Packets = TypeList<LookupSample>;
-using Occasions = TypeList<TypeIsKnown, TypesAreLacked, SampleLeaves>;
-using Rules =
-    TypeList<AskForAll, DescriptorStopsWaiting, SampleArrives, SampleIsSent, LookupExpires>;
+using Occasions = TypeList<TypeIsKnown, SampleLeaves>;
+using Rules = TypeList<DescriptorStopsWaiting, SampleArrives, SampleIsSent, LookupExpires>;
 
 }  // namespace stormproof::fsm::composition::lookup

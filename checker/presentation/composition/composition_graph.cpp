@@ -95,10 +95,25 @@ class Sides {
     return asks && effect.owner == "participant" && of.owner != effect.owner &&
            std::ranges::any_of(composition_.rules, does_itself);
   }
+  /// Control traffic has sides of its own: what its rules and others call is in none.
+  [[nodiscard]] bool is_called_from_both(const std::string& id) const {
+    const Names callers = callers_of(composition_, id);
+    const auto is_control = [&](const RuleInfo& rule) {
+      return std::string_view{rule.owner}.starts_with("control");
+    };
+    bool some = false;
+    bool others = false;
+    for (const RuleInfo& rule : composition_.rules) {
+      if (std::ranges::find(callers, rule.id) == callers.end()) continue;
+      (is_control(rule) ? some : others) = true;
+    }
+    return some && others;
+  }
   void unite(const RuleInfo& of) {
     if (of.trigger == "due") unite(rule(of.id), thing(of.cause));
     for (const EffectInfo& effect : of.effects) {
       if (effect.kind == "call") {
+        if (is_called_from_both(callee(composition_, effect))) continue;
         unite(rule(of.id), rule(callee(composition_, effect)));
       } else if (effect.kind == "emit") {
         unite(rule(of.id), sender(effect.target));
