@@ -118,18 +118,23 @@ void repeat(D& d) {
   d.when(refused, [&] { d.set(SomeRefused{}, typename D::Bool(true)); });
   d.when(!refused, [&] { d.set(SomeAccepted{}, typename D::Bool(true)); });
 }
-/// Sample by sample, until one is refused.
+/// Sample by sample, until one is refused: what is done about each, and then about all.
+template <class W, class Each, class Then>
+void repeat_listed(W& w, Each&& each, Then&& then) {
+  w.set(SomeAccepted{}, typename W::Bool(false));
+  w.set(SomeRefused{}, typename W::Bool(false));
+  w.for_descriptors([](auto& d) { return d(Listed{}) && d(Sent{}) && !d(SomeRefused{}); }, each);
+  then();
+  w.when(w(SomeAccepted{}), [&] {
+    w.call(AnswerReader{});
+    w.call(PacerGoesOn{}, pace<heartbeat_pacer::Hastened>(w));
+  });
+}
 struct RepeatListed : Procedure {
   template <class W>
   static void body(W& w) {
-    w.set(SomeAccepted{}, typename W::Bool(false));
-    w.set(SomeRefused{}, typename W::Bool(false));
-    w.for_descriptors([](auto& d) { return d(Listed{}) && d(Sent{}) && !d(SomeRefused{}); },
-                      [](auto& d) { repeat(d); });
-    w.when(w(SomeAccepted{}), [&] {
-      w.call(AnswerReader{});
-      w.call(PacerGoesOn{}, pace<heartbeat_pacer::Hastened>(w));
-    });
+    repeat_listed(
+        w, [](auto& d) { repeat(d); }, [] {});
   }
 };
 

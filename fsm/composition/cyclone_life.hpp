@@ -2,7 +2,7 @@
 // what is lost of those that are forgotten, the liveliness samples that go on for ever, samples
 // that exist no more, endpoints that are deleted, and participants that leave. `CycloneLiving` is
 // the whole composition. Of what nothing happens to its discovery is that of `Cyclone`. Source:
-// specs/guide/cyclone.md, "Participants that come and go".
+// specs/guide/cyclone-life.md.
 #pragma once
 
 #include "fsm/composition/cyclone.hpp"
@@ -10,13 +10,7 @@
 
 namespace stormproof::fsm::composition::cyclone {
 
-struct LivingThreadRuns : Rule<Due<ThreadRun>> {
-  template <class W>
-  static void run(W& w) {
-    const auto thread = w.feed(Thread{}, on<event_thread::RunDue>);
-    w.when(thread.work, [&] { w.perform(LivingWork{}); });
-  }
-};
+struct LivingThreadRuns : RunOfThread<LivingWork> {};
 
 // Sides of relations that close, and participants that are forgotten. ----------------------------
 
@@ -148,17 +142,7 @@ struct LivingSpdpTimerIsTaken : Rule<Happens<SpdpTimerFires>> {
     move<SpdpTimer, SpdpDue, SpdpTime>(w, w(Now{}) + w(AnnouncingPeriod{}));
   }
 };
-struct LivingReplyTimerIsTaken : Rule<Happens<ReplyTimerFires>> {
-  template <class W>
-  static void run(W& w) {
-    w.feed(ReplyTimer{}, on<movable_timer::Taken>);
-    w.emit(Spdp{}, says(Says{IsDirected{}, typename W::Bool(true)}));
-    w.call(Wake{});
-    w.set(RepliesSent{}, w(RepliesSent{}) + 1);
-    w.when(w(RepliesDue{}) > w(RepliesSent{}),
-           [&] { w.call(MoveReplyTimer{}, DirectedReplyInterval{}); });
-  }
-};
+struct LivingReplyTimerIsTaken : NextReply<RepliesDue> {};
 struct AddressTimeHasCome : Rule<Due<AddressTime>> {
   template <class W>
   static void run(W& w) {
@@ -273,25 +257,20 @@ struct LivingReaderIsOpened : Rule<Happens<ReaderOpens>> {
 struct RepeatWhatExists : Procedure {
   template <class W>
   static void body(W& w) {
-    w.set(SomeAccepted{}, typename W::Bool(false));
-    w.set(SomeRefused{}, typename W::Bool(false));
-    w.for_descriptors([](auto& d) { return d(Listed{}) && d(Sent{}) && !d(SomeRefused{}); },
-                      [](auto& d) {
-                        const auto gone = d(Gone{});
-                        d.when(gone, [&] {
-                          d.set(IsMissed{}, typename W::Bool(true));
-                          d.set(SomeAccepted{}, typename W::Bool(true));
-                        });
-                        d.when(!gone, [&] { repeat(d); });
-                      });
-    w.when(w.some([](auto& d) { return d(IsMissed{}); }), [&] {
-      w.emit(Gap{}, says(Says{Lists{}, [](auto& d) { return d(IsMissed{}); }}));
-      w.call(Wake{});
-      w.set_each(IsMissed{}, [](auto& d) { return !everyone(d); });
-    });
-    w.when(w(SomeAccepted{}), [&] {
-      w.call(AnswerReader{});
-      w.call(PacerGoesOn{}, pace<heartbeat_pacer::Hastened>(w));
+    const auto each = [](auto& d) {
+      const auto gone = d(Gone{});
+      d.when(gone, [&] {
+        d.set(IsMissed{}, typename W::Bool(true));
+        d.set(SomeAccepted{}, typename W::Bool(true));
+      });
+      d.when(!gone, [&] { repeat(d); });
+    };
+    repeat_listed(w, each, [&] {
+      w.when(w.some([](auto& d) { return d(IsMissed{}); }), [&] {
+        w.emit(Gap{}, says(Says{Lists{}, [](auto& d) { return d(IsMissed{}); }}));
+        w.call(Wake{});
+        w.set_each(IsMissed{}, [](auto& d) { return !everyone(d); });
+      });
     });
   }
 };

@@ -17,13 +17,16 @@ struct Wake : Procedure {
     w.when(thread.schedule, [&] { w.at(thread.next_at, ThreadRun{}); });
   }
 };
-struct ThreadRuns : Rule<Due<ThreadRun>> {
+/// A run of the thread does what `Step` says.
+template <class Step>
+struct RunOfThread : Rule<Due<ThreadRun>> {
   template <class W>
   static void run(W& w) {
     const auto thread = w.feed(Thread{}, on<event_thread::RunDue>);
-    w.when(thread.work, [&] { w.perform(Work{}); });
+    w.when(thread.work, [&] { w.perform(Step{}); });
   }
 };
+struct ThreadRuns : RunOfThread<Work> {};
 struct CopyIsSent : Rule<Happens<ThreadPauses>> {
   template <class W>
   static void run(W& w) {
@@ -116,17 +119,20 @@ struct MoveReplyTimer : Procedure {
     move<ReplyTimer, ReplyDue, ReplyTime>(w, w(Now{}) + w(Wait{}));
   }
 };
-struct ReplyTimerIsTaken : Rule<Happens<ReplyTimerFires>> {
+/// `Most` is how many there are.
+template <class Most>
+struct NextReply : Rule<Happens<ReplyTimerFires>> {
   template <class W>
   static void run(W& w) {
     w.feed(ReplyTimer{}, on<movable_timer::Taken>);
     w.emit(Spdp{}, says(Says{IsDirected{}, typename W::Bool(true)}));
     w.call(Wake{});
     w.set(RepliesSent{}, w(RepliesSent{}) + 1);
-    w.when(w(DirectedReplies{}) > w(RepliesSent{}),
+    w.when(w(Most{}) > w(RepliesSent{}),
            [&] { w.call(MoveReplyTimer{}, DirectedReplyInterval{}); });
   }
 };
+struct ReplyTimerIsTaken : NextReply<DirectedReplies> {};
 /// Both sides of all builtin relations open, and the one who has announced itself is answered.
 template <class W>
 void recognise(W& w) {

@@ -1,7 +1,7 @@
 // Where announcements go: the group, participants, and ports of peers at which nobody is known. An
 // address is live, or it ages: then it is announced to rarely, and some day no more. 0.10 keeps all
 // addresses that it has ever had.
-// Source: specs/guide/cyclone.md, "Participants that come and go", "Addresses"; q_ddsi_discovery.c,
+// Source: specs/guide/cyclone-life.md, "Addresses"; q_ddsi_discovery.c,
 // as_disc; ddsi_spdp_schedule.c.
 #pragma once
 

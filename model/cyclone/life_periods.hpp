@@ -1,6 +1,6 @@
 // Periods of Cyclone DDS that follow from a lease: how often a participant announces itself, and
 // says that it is alive.
-// Source: specs/guide/cyclone.md, "Participants that come and go", "Periods"; q_xevent.c,
+// Source: specs/guide/cyclone-life.md, "Periods"; q_xevent.c,
 // handle_xevk_spdp; ddsi_spdp_schedule.c, spdp_intv.
 #pragma once
 

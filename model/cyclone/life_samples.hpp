@@ -1,7 +1,7 @@
 // Which endpoint each sample of a stream is about, and whether it says that this exists or exists
 // no more. When endpoints come and go the deployment says, so the samples of a run are known before
-// it. Without a life sample d is descriptor d. Source: specs/guide/cyclone.md, "Participants that
-// come and go", "Endpoints".
+// it. Without a life sample d is descriptor d. Source: specs/guide/cyclone-life.md,
+// "Endpoints and participants that go".
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // When discovery is complete if participants have a life: every two that are there know each other,
 // each has been notified of exactly the endpoints that the other has, and nobody knows one who is
 // gone. It keeps the number of what is missing up to date.
-// Source: specs/guide/cyclone.md, "Participants that come and go", "Complete".
+// Source: specs/guide/cyclone-life.md, "Complete".
 #pragma once
 
 #include <array>

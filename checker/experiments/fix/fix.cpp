@@ -117,6 +117,14 @@ class Study {
   Cell verdict_of(const std::optional<launch::Plan>& plan, const Scenario& one) {
     return runs_of(judging_, plan, one, request_.seed + next_seeds, request_.samples);
   }
+  /// Holds an attempt against new seeds; false if that was stopped.
+  bool judge(Attempt& made) {
+    doing_ = "again, " + made.name;
+    Cell cell = verdict_of(made.plan, made.scenario);
+    if (judging_.stopped()) return false;
+    made.confirmed = std::move(cell);
+    return true;
+  }
   Cell runs_of(trials::Runner& runner, const std::optional<launch::Plan>& plan, const Scenario& one,
                std::uint64_t seed, std::size_t samples) {
     auto runs = runner.run(samples, [&](std::size_t k) {
@@ -259,10 +267,7 @@ class Study {
                              [this](std::size_t k) { return median_of(report_.attempts[k].runs); });
     for (const std::size_t k : hopeful) {
       Attempt& made = report_.attempts[k];
-      doing_ = "again, " + made.name;
-      Cell cell = verdict_of(made.plan, made.scenario);
-      if (judging_.stopped()) return false;
-      made.confirmed = std::move(cell);
+      if (!judge(made)) return false;
       if (!cures(*made.confirmed, made.scenario)) continue;
       report_.chosen = k;
       report_.answer = Answer::cured;
@@ -294,10 +299,7 @@ class Study {
     report_.chosen = nearest();
     if (!report_.chosen) return;
     Attempt& made = report_.attempts[*report_.chosen];
-    if (made.confirmed) return;
-    doing_ = "again, " + made.name;
-    Cell cell = verdict_of(made.plan, made.scenario);
-    if (!judging_.stopped()) made.confirmed = std::move(cell);
+    if (!made.confirmed) judge(made);
   }
 
   static constexpr Nanoseconds launch_limit{60'000'000'000};
