@@ -291,6 +291,11 @@ class LivingSteps : public ThreadSteps<Host, true> {
     m.to.addresses = std::move(addresses);
     this->enqueue(i, std::move(m));
   }
+  /// The writer of a descriptor's topic, or none: a topic that nobody ever publishes has no sides.
+  [[nodiscard]] Number sided_topic(Stream s, Number descriptor) const {
+    const Number topic = topic_writer(s, descriptor);
+    return topic < this->stride_ ? topic : writer::none;
+  }
   void drop_acknowledged(Number w);
   void close_deleted(Number w, Number sample);
   void follow(Number r, Number sample);
@@ -330,7 +335,7 @@ void LivingSteps<Host>::close_deleted(Number w, Number sample) {
     const Sample before = this->samples_.of(i, s, d);
     if (before.descriptor == descriptor) this->host().assign(rules::Gone{}, w, d, true);
   }
-  const Number topic = topic_writer(s, descriptor);
+  const Number topic = sided_topic(s, descriptor);
   if (topic == writer::none) return;
   const Topology& topology = this->steps_of_.topology;
   for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1); ++pair) {
@@ -353,7 +358,7 @@ void LivingSteps<Host>::follow(Number r, Number sample) {
   const Number pair = r / this->stride_;
   completion_.follow(pair, s, said);
   if (!said.deletes) return this->open_notified(r, said.descriptor);
-  const Number topic = topic_writer(s, said.descriptor);
+  const Number topic = sided_topic(s, said.descriptor);
   if (topic == writer::none) return;
   if (s == Stream::pub) {
     this->template happen<rules::ReaderCloses>(this->stride_ * pair + topic);

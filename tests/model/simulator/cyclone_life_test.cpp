@@ -98,6 +98,16 @@ TEST(CycloneLifeByHand, ALateEndpointWaitsForTheNextHeartbeat) {
   EXPECT_EQ(complete_at_ms(cut(two, 12, 17)), 18'100);
 }
 
+/// Its topic has no writer anywhere.
+TEST(CycloneLifeByHand, ASubscriptionThatNobodyPublishesForIsDeleted) {
+  auto two = without_delays(vectors::two_lives(model::AllowMulticast::always));
+  for (model::Participant& one : two.deployment.participants) one.publications = 0;
+  two.deployment.participants[0].subscriptions = 5;
+  two.deployment.life->deletions.push_back(
+      {.participant = 0, .subscription = 4, .at = model::Nanoseconds{13'000 * ms}});
+  EXPECT_EQ(complete_at_ms(two), 13'000);
+}
+
 TEST(CycloneLifeByHand, ElevenWithoutMulticastForgetsAddresses) {
   EXPECT_EQ(complete_at_ms(cut(peers_of_11(), 12, 37)), 48'101);
   EXPECT_EQ(complete_at_ms(cut(peers_of_11(), 12, 57)), std::nullopt);
