@@ -135,6 +135,15 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
          "(sender: stalls) serves none as long as its packets wait for room, however long that is";
 }
 
+/// Why a run does not show what the rules made of it. Samples of lookups that go to some readers
+/// leave with HEARTBEATs to all behind them, and a participant that stalls may do so in between.
+std::string_view why_not_shown(const model::Scenario& scenario) {
+  const bool filters = scenario.dds.version.typelookup_filter != model::LookupFilter::none;
+  if (!filters || !stalls(scenario)) return {};
+  return "a run does not show where a participant stalls between samples that go to some readers "
+         "and their HEARTBEATs to all (dds.typelookup_filter, sender: stalls)";
+}
+
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
@@ -152,6 +161,8 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";
   }
+  if (property.id == "composition.followed") why = why_not_shown(scenario);
+  if (!why.empty()) return why;
   why = why_not_needed(property.needs, scenario);
   return why.empty() ? why_not_true(property.counts_on, scenario) : why;
 }

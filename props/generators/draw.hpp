@@ -54,6 +54,8 @@ void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds);
 /// Whether the delay between initial ACKNACKs doubles. One that stays is a period: it does not get
 /// so short that its events alone fill the run.
 void draw_attempts(Dice& dice, const Clock& clock, model::SedpProfile& sedp);
+/// When readers of Cyclone DDS tell what is fresh.
+void draw_notification(Dice& dice, model::DdsProfile& dds);
 
 void draw_wireless(Dice& dice, const ScenarioSpace& space, model::WirelessProfile& wireless);
 /// Delays of single packets, which need a clock to meet other events.

@@ -92,7 +92,6 @@ void draw_cyclone_rules(Dice& dice, model::DdsProfile& dds) {
   sedp.max_queued_rexmit_messages =
       dice.pick<std::uint32_t>({200, 200, 1, 2, 5, dice.count(0, 30)});
   sedp.merge_queued_rexmit = dice.chance(75) ? model::MergeQueued::yes : model::MergeQueued::no;
-  sedp.notification = dice.choice<model::Notification>(2);
 }
 
 void draw_cyclone_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
@@ -155,6 +154,11 @@ void draw_timers(Dice& dice, const Clock& clock, model::DdsProfile& dds) {
   const std::int64_t common = std::gcd(numerator, denominator);
   adaptive.epsilon_numerator = numerator / common;
   adaptive.epsilon_denominator = denominator / common;
+}
+
+void draw_notification(Dice& dice, model::DdsProfile& dds) {
+  if (!model::traits_of(dds).has_own_timers) return;
+  dds.sedp.notification = dice.choice<model::Notification>(2);
 }
 
 void draw_attempts(Dice& dice, const Clock& clock, model::SedpProfile& sedp) {

@@ -28,6 +28,7 @@ model::Scenario draw_scenario(std::uint64_t seed, int size, const ScenarioSpace&
   draw_timers(dice, clock, scenario.dds);
   draw_times(dice, space, clock, scenario);
   draw_attempts(dice, clock, scenario.dds.sedp);
+  draw_notification(dice, scenario.dds);
   return scenario;
 }
 

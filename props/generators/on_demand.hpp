@@ -40,5 +40,8 @@ void draw_types(Dice& dice, model::Scenario& scenario);
 void draw_amendments(Dice& dice, model::Scenario& scenario);
 /// What happened before the run, and happens to participants in it.
 void draw_life(Dice& dice, model::Scenario& scenario);
+/// The same of Cyclone DDS, which must be the scenario's; and peers. Some announcement periods
+/// long.
+void draw_goodbyes(Dice& dice, model::Scenario& scenario);
 
 }  // namespace stormproof::props

@@ -68,6 +68,17 @@ TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   }
 }
 
+TEST(Lookups, ThatAreFilteredAreNotFollowedWhereSendersStall) {
+  model::Scenario scenario;
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  scenario.dds.version.typelookup_filter = model::LookupFilter::answers;
+  EXPECT_TRUE(is_watched(scenario, "composition.followed"));
+  scenario.wireless.sender = model::Sender::stalls;
+  EXPECT_FALSE(is_watched(scenario, "composition.followed"));
+  scenario.dds.version.typelookup_filter = model::LookupFilter::none;
+  EXPECT_TRUE(is_watched(scenario, "composition.followed"));
+}
+
 TEST(Server, IsSpokenOfByWhatItsClientsTellIt) {
   for (const model::Discovery discovery :
        {model::Discovery::server, model::Discovery::super_client}) {

@@ -11,7 +11,7 @@
 namespace stormproof::props {
 namespace cyclone_acknowledgments_test {
 
-constexpr std::uint64_t draws = 120;
+constexpr std::uint64_t draws = 40;
 constexpr std::uint64_t enough_events = 20'000;
 
 /// In how many random runs with these mistakes the property is violated, and what was looked at.

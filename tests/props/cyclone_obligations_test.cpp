@@ -70,7 +70,7 @@ TEST(CycloneObligations, AreKeptByCorrectRuns) {
 
 TEST(CycloneObligations, NoticeAckNacksThatAreNoSnapshots) {
   const std::vector<model::Mutation> mistakes{at_effect("DataArrives.3", Change::drop),
-                                              at_effect("HeartbeatArrives.2", Change::drop),
+                                              at_effect("HeartbeatArrives.3", Change::drop),
                                               at_effect("DataArrives.2:if1", Change::always)};
   for (const model::Mutation& mistake : mistakes) {
     EXPECT_GT(violated("safety.snapshot", &mistake), 5) << mistake.effects.front().effect;

@@ -9,6 +9,7 @@
 
 #include "fsm/composition/compositions.hpp"
 #include "model/composition_of.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/implementations.hpp"
 #include "props/generators/on_demand.hpp"
 #include "tests/oracle/random_scenario.hpp"
@@ -103,6 +104,21 @@ TEST(Followed, LivesUnderCycloneDdsAreWhatTheRulesSay) {
   }
 }
 
+TEST(Followed, DrawnLivesUnderCycloneDdsAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 20'000;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    Scenario scenario = oracle::varied_cyclone_scenario(seed);
+    Dice dice{seed};
+    draw_goodbyes(dice, scenario);
+    ASSERT_TRUE(model::config::is_valid(scenario)) << "seed " << seed;
+    const auto monitor = follow(scenario, options);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+  }
+}
+
 /// Clients or super clients of a server.
 Scenario with_server(std::uint64_t seed) {
   Scenario scenario = oracle::random_scenario(seed, ImplementationKind::fastdds);
@@ -161,7 +177,10 @@ TEST(Followed, RunsOfLaterVersionsAreWhatTheRulesSay) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Scenario scenario = seed % 2 == 0 ? oracle::random_lookup_scenario(seed)
                                       : oracle::varied_version_scenario(seed);
-    if (seed % 7 == 6) scenario.wireless.sender = model::Sender::stalls;
+    if (seed % 7 == 6) {
+      scenario.wireless.sender = model::Sender::stalls;
+      scenario.dds.version.typelookup_filter = model::LookupFilter::none;
+    }
     const auto monitor = follow(scenario, options);
     if (!monitor->violation()) continue;
     ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "

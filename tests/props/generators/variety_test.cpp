@@ -49,6 +49,9 @@ std::vector<Scenario> drawn_on_demand() {
     list.push_back(draw_scenario(seed, 100, {.implementation = model::ImplementationKind::paper}));
     Dice dice{seed};
     draw_amendments(dice, list.back());
+    list.push_back(
+        draw_scenario(seed, 100, {.implementation = model::ImplementationKind::cyclone}));
+    draw_goodbyes(dice, list.back());
   }
   for (std::uint64_t seed = 0; seed < 2 * draws_on_demand; ++seed) {
     const Scenario plain =

@@ -146,7 +146,7 @@ const std::vector<Knob>& knobs() {
       {"HeartbeatIntervalThreeTimes", Setting{2, uc, lossy},
        [](Dds& dds) { dds.sedp.heartbeat_interval = times(dds.sedp.heartbeat_interval, 3); },
        Fault::heartbeat_cause},
-      {"HeartbeatIntervalHalf", Setting{2, uc, lossy},
+      {"HeartbeatIntervalHalf", Setting{1, uc, lossy},
        [](Dds& dds) { dds.sedp.heartbeat_interval = times(dds.sedp.heartbeat_interval, 1, 2); },
        Fault::heartbeat_due},
       {"MatchHeartbeatDelay", Setting{1, uc, {}},
