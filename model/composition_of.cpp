@@ -29,7 +29,7 @@ const fsm::program::Program& program_of_exchange(const DdsProfile& dds) {
 }
 
 bool is_living(const Scenario& scenario) {
-  const bool lives = scenario.deployment.life || scenario.dds.peers > 0;
+  const bool lives = scenario.deployment.life || announces_to_ports(scenario);
   return lives && traits_of(scenario.dds).has_living_composition;
 }
 

@@ -7,7 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "model/dds_profile.hpp"
 #include "model/host.hpp"
+#include "model/shared_value.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
@@ -25,6 +27,8 @@ struct Participant {
   /// time (≥ start, which it is if absent).
   std::optional<Nanoseconds> open = {};
   std::optional<Nanoseconds> ready = {};
+  /// Its own profile, of the implementation of the scenario's; absent: it has that one.
+  Shared<DdsProfile> dds = {};
 
   bool operator==(const Participant&) const = default;
 };

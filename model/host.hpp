@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "model/dds_profile.hpp"
+#include "model/shared_value.hpp"
 #include "model/units.hpp"
 
 namespace stormproof::model {
@@ -44,6 +46,7 @@ struct Host {
   std::optional<BitsPerSecond> rate;        ///< of unicast to and from a station
   std::optional<std::string> access_point;  ///< of a station; absent: the first one
   std::optional<PowerSave> power_save;      ///< of a station
+  Shared<DdsProfile> dds = {};              ///< of its participants that have none of their own
 
   bool operator==(const Host&) const = default;
 };

@@ -131,7 +131,10 @@ Scenario as_run(const Scenario& scenario) {
   Scenario all = scenario;
   all.deployment = with_successors(scenario.deployment);
   const bool acts_always = traits_of(scenario.dds).has_event_thread;
-  if (scenario.dds.peers > 0 && !all.deployment.life) all.deployment.life.emplace();
+  if (announces_to_ports(scenario) && !all.deployment.life) {
+    all.deployment.life.emplace();
+    choose_lease(all);
+  }
   if (all.deployment.life && acts_always && !all.deployment.life->lease) {
     all.deployment.life->lease = lease_of(scenario.dds);
   }

@@ -1,7 +1,10 @@
 // Counts and airtimes of a discovery in which everything is sent once.
 #include "model/reference.hpp"
 
+#include <vector>
+
 #include "model/airtime.hpp"
+#include "model/engine/profiles.hpp"
 #include "model/engine/topology.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
@@ -28,14 +31,17 @@ std::int64_t data_ns(const RouteAirtime& route, const PacketSizes& sizes, Stream
   return payload == 0 ? sum : sum + route.packet_ns(payload, false);
 }
 
+/// `sizes_of(i)`: those of what participant i sends.
+template <class SizesOf>
 std::int64_t everything_once_ns(const Topology& topology, const RouteAirtime& route,
-                                const PacketSizes& sizes) {
-  const std::int64_t control =
-      route.packet_ns(sizes.heartbeat, false) + route.packet_ns(sizes.acknack, false);
-  const std::int64_t multicast = route.packet_ns(sizes.announcement, true);
-  const std::int64_t unicast = route.packet_ns(sizes.announcement, false);
+                                const SizesOf& sizes_of) {
   std::int64_t sum = 0;
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
+    const PacketSizes& sizes = sizes_of(i);
+    const std::int64_t control =
+        route.packet_ns(sizes.heartbeat, false) + route.packet_ns(sizes.acknack, false);
+    const std::int64_t multicast = route.packet_ns(sizes.announcement, true);
+    const std::int64_t unicast = route.packet_ns(sizes.announcement, false);
     const std::int64_t peers = topology.peer_count(i);
     sum += (1 + peers) * multicast + peers * (peers + 1) / 2 * unicast;
     for (const Stream s : streams) {
@@ -106,16 +112,20 @@ Counts failure_free_reference(const Scenario& scenario) {
   counts.acknack = topology.relation_count();
   const bool same_host = traits_of(scenario.dds).discovers_same_host;
   // Cyclone DDS answers the one who has announced itself, and does not announce itself to all.
-  const SpdpResend resend =
-      traits_of(scenario.dds).answers_newcomers ? SpdpResend::new_only : scenario.dds.spdp.resend;
+  const bool answers = traits_of(scenario.dds).answers_newcomers;
+  const std::uint64_t other_hosts = scenario.deployment.host_count() - 1;
   for (std::uint32_t i = 0; i < topology.participant_count(); ++i) {
+    const DdsProfile& dds = dds_of(scenario, i);
     const std::uint64_t peers = topology.peer_count(i);
-    add_spdp(counts, resend, same_host ? topology.participant_count() - 1 : peers, peers);
-  }
-  if (scenario.dds.discovery == Discovery::static_peers) {  // to each port instead of the group
-    const std::uint64_t other_hosts = scenario.deployment.host_count() - 1;
-    counts.spdp_unicast += counts.spdp_multicast * other_hosts * scenario.dds.peer_ports;
-    counts.spdp_multicast = 0;
+    Counts own;
+    add_spdp(own, answers ? SpdpResend::new_only : dds.spdp.resend,
+             same_host ? topology.participant_count() - 1 : peers, peers);
+    if (dds.discovery == Discovery::static_peers) {  // to each port instead of the group
+      own.spdp_unicast += own.spdp_multicast * other_hosts * dds.peer_ports;
+      own.spdp_multicast = 0;
+    }
+    counts.spdp_multicast += own.spdp_multicast;
+    counts.spdp_unicast += own.spdp_unicast;
   }
   return counts;
 }
@@ -125,8 +135,15 @@ std::optional<Nanoseconds> open_loop_airtime(const Scenario& scenario) {
   if (!traits_of(scenario.dds).has_open_loop) return std::nullopt;
   const Topology topology{scenario.deployment, scenario.dds.descriptors};
   const RouteAirtime route{scenario.wireless};
-  const PacketSizes sizes = packet_sizes(fastdds::deployed_profile(scenario));
-  return Nanoseconds{everything_once_ns(topology, route, sizes)};
+  const Profiles profiles{scenario};
+  std::vector<PacketSizes> sizes;
+  for (const DdsProfile& dds : profiles.different()) {
+    sizes.push_back(packet_sizes(fastdds::deployed_profile(scenario, dds)));
+  }
+  const auto sizes_of = [&](std::uint32_t i) -> const PacketSizes& {
+    return sizes[profiles.number_of(i)];
+  };
+  return Nanoseconds{everything_once_ns(topology, route, sizes_of)};
 }
 
 }  // namespace stormproof::model

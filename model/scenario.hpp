@@ -2,6 +2,7 @@
 // one trajectory, to the nanosecond. `model/config/scenario_file.hpp` reads it from YAML.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,19 +34,56 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
-/// Says what the network is good for where the DDS profile leaves that open: Cyclone DDS sends
+/// The profile that the participant has: its own, or the scenario's.
+[[nodiscard]] inline const DdsProfile& dds_of(const Scenario& scenario, std::uint32_t participant) {
+  if (participant >= scenario.deployment.size()) return scenario.dds;  // a Discovery Server
+  const Shared<DdsProfile>& own = scenario.deployment.participants[participant].dds;
+  return own ? *own : scenario.dds;
+}
+/// Whether some participant has another profile than the scenario says for all.
+[[nodiscard]] inline bool is_mixed(const Scenario& scenario) {
+  return std::ranges::any_of(scenario.deployment.participants, [&](const Participant& one) {
+    return one.dds && *one.dds != scenario.dds;
+  });
+}
+/// Whether it holds for the profile of some participant.
+template <class Holds>
+[[nodiscard]] bool some_profile(const Scenario& scenario, Holds&& holds) {
+  return std::ranges::any_of(scenario.deployment.participants, [&](const Participant& one) {
+    return holds(one.dds ? *one.dds : scenario.dds);
+  });
+}
+
+/// Whether somebody announces itself to ports of hosts, beside the group (Cyclone DDS's peers).
+[[nodiscard]] inline bool announces_to_ports(const Scenario& scenario) {
+  return some_profile(scenario, [](const DdsProfile& dds) { return dds.peers > 0; });
+}
+
+/// Says what the network is good for where a DDS profile leaves that open: Cyclone DDS sends
 /// everything by multicast where it is not flaky, which it takes Wi-Fi for (q_init.c, mc_flaky in
 /// ddsi_ownip.c). A channel that hosts share counts as Wi-Fi.
 inline void choose_multicast(Scenario& scenario) {
-  if (scenario.dds.allow_multicast != AllowMulticast::by_network) return;
   const bool is_wired = scenario.wireless.kind == ServiceKind::constant_delay;
-  scenario.dds.allow_multicast = is_wired ? AllowMulticast::always : AllowMulticast::spdp;
+  const AllowMulticast choice = is_wired ? AllowMulticast::always : AllowMulticast::spdp;
+  const auto is_open = [](const DdsProfile& dds) {
+    return dds.allow_multicast == AllowMulticast::by_network;
+  };
+  if (is_open(scenario.dds)) scenario.dds.allow_multicast = choice;
+  for (Participant& one : scenario.deployment.participants) {
+    if (one.dds && is_open(*one.dds)) one.dds.emplace(*one.dds).allow_multicast = choice;
+  }
 }
 
-/// The lease of the profile is that of a life which says none.
+/// The leases of profiles are those of a life which says none.
 inline void choose_lease(Scenario& scenario) {
   std::optional<Life>& life = scenario.deployment.life;
-  if (life && !life->lease) life->lease = scenario.dds.spdp.lease;
+  if (!life || life->lease) return;
+  life->lease = scenario.dds.spdp.lease;
+  for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
+    const std::optional<Nanoseconds> own = dds_of(scenario, i).spdp.lease;
+    const bool is_said = std::ranges::count(life->leases, i, &Lease::participant) > 0;
+    if (own && own != life->lease && !is_said) life->leases.push_back({i, *own});
+  }
 }
 
 /// Whether a seed changes the scenario: start times are drawn, how long participants are deaf, or

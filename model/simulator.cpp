@@ -217,7 +217,7 @@ class Simulator {
 
 RunResult simulate(const Scenario& scenario, const RunOptions& options,
                    const ImplementationMaker& maker) {
-  if (scenario.deployment.life || scenario.dds.peers > 0) {
+  if (scenario.deployment.life || announces_to_ports(scenario)) {
     const Scenario living = as_run(scenario);
     return std::make_unique<Simulator>(living, options, maker)->run();
   }

@@ -144,6 +144,20 @@ std::string_view why_not_shown(const model::Scenario& scenario) {
          "and their HEARTBEATs to all (dds.typelookup_filter, sender: stalls)";
 }
 
+/// Why it says nothing of participants with different profiles (`deployment.participants[].dds`).
+std::string_view why_not_mixed(const Property& property, const model::Scenario& scenario) {
+  if (!model::is_mixed(scenario)) return {};
+  if (property.counts_on == Premise::punctual_timers) {
+    return "its bounds are those of one profile; participants of this deployment have different "
+           "ones (deployment.participants[].dds)";
+  }
+  const bool of_timers =
+      property.id == "live.no-stall" && model::traits_of(scenario.dds).has_own_timers;
+  if (!of_timers) return {};
+  return "it looks at timers of one profile of Cyclone DDS; participants of this deployment have "
+         "different ones (deployment.participants[].dds)";
+}
+
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
@@ -152,6 +166,7 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
                         (traits.has_event_thread && property.about == Vocabulary::rules));
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
   if (is_read) why = {};
+  if (why.empty()) why = why_not_mixed(property, scenario);
   if (!why.empty()) return why;
   if (is_living && property.about != Vocabulary::everything && !is_read) {
     if (traits.has_event_thread) {
@@ -175,6 +190,10 @@ bool is_proved_of(const Property& property, model::ImplementationKind implementa
 }
 
 std::string_view why_not_provable(const Property& property, const model::Scenario& scenario) {
+  if (model::is_mixed(scenario) && property.about != Vocabulary::everything) {
+    return "the engines that prove it know one DDS profile for all participants; here they have "
+           "different ones (deployment.participants[].dds)";
+  }
   if (!scenario.deployment.hosts.empty() && property.counts_on != Premise::rules) {
     return "the engines that prove it know no hosts that are listed (deployment.hosts)";
   }

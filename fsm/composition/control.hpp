@@ -27,7 +27,7 @@ struct ControlLastDelay : Number<owner::control_relation> {};
 struct OfTopic : Answer {};
 /// heartbeatResponseDelay of ordinary readers, and τ_B of those that are built in.
 struct TopicReplyDelay : FixedDelay<5'000'000> {};
-struct BuiltinReplyDelay : DelayOf<"builtin_response_delay"> {};
+struct BuiltinReplyDelay : DelayOf<"builtin_response_delay">, OfDestination {};
 struct ControlReplyDelay : Fact {
   template <class W>
   static auto of(W& w) {

@@ -74,10 +74,10 @@ struct RepliesSent : Number<owner::pair> {};
 struct HeartbeatInterval : DelayOf<"sedp.heartbeat_interval"> {};
 struct HeartbeatIntervalMax : DelayOf<"sedp.heartbeat_interval_max"> {};
 struct MatchHeartbeatDelay : DelayOf<"sedp.match_heartbeat_delay"> {};
-struct AckDelay : DelayOf<"sedp.ack_delay"> {};
-struct NackDelay : DelayOf<"sedp.nack_delay"> {};
-struct AutoReschedNackDelay : DelayOf<"sedp.auto_resched_nack_delay"> {};
-struct PreEmptiveAckDelay : DelayOf<"sedp.preemptive_ack_delay"> {};
+struct AckDelay : DelayOf<"sedp.ack_delay">, OfDestination {};
+struct NackDelay : DelayOf<"sedp.nack_delay">, OfDestination {};
+struct AutoReschedNackDelay : DelayOf<"sedp.auto_resched_nack_delay">, OfDestination {};
+struct PreEmptiveAckDelay : DelayOf<"sedp.preemptive_ack_delay">, OfDestination {};
 struct PreEmptiveRepeatDelay : FixedDelay<1'000'000'000> {};
 struct CountWindow : FixedDelay<500'000'000> {};  ///< how long counts are compared
 struct SpdpStartupPeriod : DelayOf<"spdp.startup_period"> {};
@@ -86,7 +86,7 @@ struct DirectedReplies : DelayOf<"spdp.directed_replies"> {};  ///< how many
 struct DirectedReplyInterval : DelayOf<"spdp.directed_reply_interval"> {};
 struct SendTime : Delay {};  ///< of the deployment: between two packets of a participant
 struct MergesQueued : SwitchOf<"sedp.merge_queued_rexmit", "true"> {};
-struct TellsFreshAtOnce : SwitchOf<"sedp.notification", "fresh_at_once"> {};
+struct TellsFreshAtOnce : SwitchOf<"sedp.notification", "fresh_at_once">, OfDestination {};
 
 /// The count of a HEARTBEAT or ACKNACK.
 struct Count : PacketNumber {};

@@ -141,8 +141,11 @@ void recognise(W& w) {
     r.reverse([](auto& back) { back.raise(WriterOpens{}); });
     r.raise(ReaderOpens{});
   });
-  w.when(!w(IsDirected{}) && w(DirectedReplies{}) > 0,
-         [&] { w.reverse([](auto& back) { back.call(MoveReplyTimer{}, Immediately{}); }); });
+  w.when(!w(IsDirected{}), [&] {
+    w.reverse([](auto& back) {
+      back.when(back(DirectedReplies{}) > 0, [&] { back.call(MoveReplyTimer{}, Immediately{}); });
+    });
+  });
 }
 /// What a participant does when it hears of another one for the first time. `w` is the pair of the
 /// one who announced itself and the one who hears it.

@@ -47,7 +47,7 @@ struct Notified : Fact {
 struct NackResponseDelay : DelayOf<"sedp.nack_response_delay"> {};          ///< τ_N
 struct SuppressionDuration : DelayOf<"sedp.nack_suppression_duration"> {};  ///< τ_S
 
-struct OpensBuiltinFirst : SwitchOf<"match_order", "builtin_first"> {};
+struct OpensBuiltinFirst : SwitchOf<"match_order", "builtin_first">, OfDestination {};
 
 struct Data : Packet<owner::relation, Carries, Announces, CarriesHeartbeat> {};
 struct Heartbeat : Packet<owner::relation, Announces> {};

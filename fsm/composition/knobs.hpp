@@ -1,7 +1,9 @@
 // What a rule asks a profile for: truth values, and numbers, most of them delays in ns. A tag names
 // the key of the profile that it stands for, and of a choice the values for which it is true; who
 // has a profile finds the value by that name when the rule is compiled
-// (model/engine/composition_knobs.hpp). Here a key is text: fsm knows no profile.
+// (model/engine/composition_knobs.hpp). Here a key is text: fsm knows no profile. Where
+// participants have different profiles a tag also says whose value counts (specs/guide/profiles.md,
+// "Whose value counts").
 #pragma once
 
 #include <algorithm>
@@ -38,6 +40,12 @@ struct SwitchOf : Switch {
   static constexpr std::string_view key = key_.view();
   static constexpr std::array<std::string_view, sizeof...(values_)> values{values_.view()...};
 };
+/// Of whom a rule asks a knob that is about a pair or a relation: its source, who announces itself
+/// or writes, unless the tag says that it is its destination, who recognises or reads; or both, and
+/// then a switch holds if it holds for both. About a participant or a writer nobody else is asked.
+struct OfDestination {};
+struct OfBothEnds {};
+
 /// One that no profile changes, in ns.
 template <std::int64_t value_>
 struct FixedDelay : Delay {

@@ -12,7 +12,7 @@
 namespace stormproof::fsm::composition::lookup {
 
 /// Participants have endpoints that ask for types, and answer.
-struct LooksUpTypes : SwitchOf<"type_lookup", "true"> {};
+struct LooksUpTypes : SwitchOf<"type_lookup", "true">, OfBothEnds {};
 /// The endpoints of the deployment have types.
 struct HaveTypes : Answer {};
 /// Participants ask for what they do not know.

@@ -28,12 +28,13 @@ struct HeartbeatSeen : Flag<owner::relation> {};
 struct LastDelay : Number<owner::relation> {};
 
 /// What a reader side that is not open does with DATA and HEARTBEATs.
-struct AcceptsUnmatched : Switch {};  ///< also if both sides open at once: of two knobs
+struct AcceptsUnmatched : Switch,
+                          OfDestination {};  ///< also if both sides open at once: of two knobs
 /// τ_I; 0 disables initial ACKNACKs.
-struct InitialDelay : DelayOf<"sedp.initial_acknack_delay"> {};
+struct InitialDelay : DelayOf<"sedp.initial_acknack_delay">, OfDestination {};
 /// The delay does not double.
-struct ConstantInterval : SwitchOf<"sedp.initial_acknack_interval", "constant"> {};
-struct ResponseDelay : DelayOf<"sedp.heartbeat_response_delay"> {};  ///< τ_A
+struct ConstantInterval : SwitchOf<"sedp.initial_acknack_interval", "constant">, OfDestination {};
+struct ResponseDelay : DelayOf<"sedp.heartbeat_response_delay">, OfDestination {};  ///< τ_A
 struct RunEnds : Answer {};  ///< discovery is complete, and the run ends with that
 
 struct ReaderOpens : Occasion<owner::relation> {};

@@ -1,6 +1,9 @@
 // Overrides that choose a profile come before the profile, those of single keys after it.
 #include "model/config/resolve.hpp"
 
+#include <map>
+#include <utility>
+
 #include <fmt/core.h>
 
 #include "model/config/knobs/dds_knobs.hpp"
@@ -32,6 +35,67 @@ void make_map(Node& profile) {
 }
 
 using Failure = std::optional<InputError>;
+
+/// What a host or a participant of the deployment is, and the profile that it may have.
+constexpr std::string_view deployment_key = "deployment";
+constexpr std::string_view lists_with_profiles[] = {participants_key, hosts_key};
+
+/// Calls `visit` with each profile of a host or a participant, and its path.
+template <class Visit>
+void for_own_profiles(Node& root, Visit&& visit) {
+  Node* deployment = root.find(deployment_key);
+  if (deployment == nullptr || !deployment->is_map()) return;
+  for (const std::string_view key : lists_with_profiles) {
+    Node* list = deployment->find(key);
+    if (list == nullptr || !list->is_sequence()) continue;
+    for (std::size_t k = 0; k < list->items.size(); ++k) {
+      Node* own = list->items[k].is_map() ? list->items[k].find(own_profile_key) : nullptr;
+      if (own == nullptr) continue;
+      visit(*own, fmt::format("{}.{}.{}.{}", deployment_key, key, k, own_profile_key));
+    }
+  }
+}
+
+/// An error if the two are not of one implementation; whatever else keeps them apart the tables
+/// say.
+Failure check_beside(const Node& whole, const Node& own, const Place& place,
+                     const std::string& path) {
+  const std::string_view expected = implementation_of(whole);
+  const std::string_view word = implementation_of(own);
+  if (word == expected) return std::nullopt;
+  return error_at(place, fmt::format("{}: a profile with {}: {}; expected one with {}: {}, as the "
+                                     "scenario's has it: what the two make of each other nobody "
+                                     "has stated",
+                                     path, implementation_key, word, implementation_key, expected));
+}
+
+/// Of hosts and participants.
+Failure resolve_own_profiles(Node& root, const SpecPath& specs) {
+  Failure failure;
+  std::map<std::pair<std::string, std::string>, Node> known;  // by file and name in it
+  const Node* whole = root.find(dds_key);
+  for_own_profiles(root, [&](Node& own, const std::string& path) {
+    if (failure) return;
+    const Place place = own.place;
+    const std::pair key{place.source == nullptr ? std::string{} : *place.source, own.text};
+    const auto before = own.is_scalar() ? known.find(key) : known.end();
+    if (before != known.end()) {
+      own = before->second;
+    } else {
+      const bool is_name = own.is_scalar();
+      Result<Resolved> complete = resolve_profile(std::move(own), SpecKind::dds, specs);
+      if (!complete) {
+        failure = complete.error();
+        return;
+      }
+      own = std::move(complete->tree);
+      if (is_name) known.emplace(key, own);
+    }
+    own.place = place;
+    if (whole != nullptr && whole->is_map()) failure = check_beside(*whole, own, place, path);
+  });
+  return failure;
+}
 
 /// Applies an override of a key of a resolved profile. Paths inside `dds`, the DDS profile if there
 /// is one, start with `prefix`.
@@ -93,6 +157,9 @@ Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPat
       Node* profile = root.find(slot.key);
       if (profile != nullptr && path_below(slot, change.path)) make_map(*profile);
     }
+    for_own_profiles(root, [&](Node& own, const std::string& path) {
+      if (change.path.starts_with(path + ".")) make_map(own);
+    });
     if (Failure failure = apply(change, root)) return *std::move(failure);
   }
   if (Failure failure = drop_description(root)) return *std::move(failure);
@@ -110,6 +177,7 @@ Result<Resolved> with_profiles(Node scenario, Overrides overrides, const SpecPat
     resolved.preset = std::move(complete->preset);
     resolved.vendor = std::move(complete->vendor);
   }
+  if (Failure failure = resolve_own_profiles(root, specs)) return *std::move(failure);
   return resolved;
 }
 

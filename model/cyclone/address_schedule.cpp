@@ -9,72 +9,82 @@
 
 namespace stormproof::model::cyclone {
 
+AddressSchedule::Rules::Rules(const DdsProfile& dds)
+    : initial_delay{dds.spdp.initial_prune_delay.value_or(Nanoseconds{}).count()},
+      discovered_delay{dds.spdp.discovered_prune_delay.value_or(Nanoseconds{}).count()},
+      has_group{dds.allow_multicast != AllowMulticast::never},
+      only_group{dds.allow_multicast == AllowMulticast::always},
+      prunes{cyclone::prunes(dds)},
+      interval{said_interval(dds).value_or(usual_interval).count()} {}
+
 AddressSchedule::AddressSchedule(const Scenario& scenario)
-    : dds_{scenario.dds},
-      participants_{scenario.deployment.size()},
-      has_group_{dds_.allow_multicast != AllowMulticast::never},
-      only_group_{dds_.allow_multicast == AllowMulticast::always},
-      prunes_{prunes(dds_)},
-      interval_{said_interval(dds_).value_or(usual_interval).count()} {
-  addresses_.resize(participants_);
-  if (only_group_) return;
+    : participants_{scenario.deployment.size()}, addresses_(participants_) {
   // The k-th participant of a host has its k-th port.
   std::map<HostId, std::uint32_t> on_host;
-  std::vector<bool> is_peer(participants_);
+  std::vector<std::uint32_t> port_of;  // by address
+  std::uint32_t most = 0;
   for (Number i = 0; i < participants_; ++i) {
-    is_peer[i] = on_host[scenario.deployment.participants[i].host]++ < dds_.peers;
+    const DdsProfile& dds = dds_of(scenario, i);
+    rules_.emplace_back(dds);
+    if (!rules_[i].only_group) most = std::max(most, dds.peers);
+    port_of.push_back(on_host[scenario.deployment.participants[i].host]++);
   }
   for (const auto& [host, count] : on_host) {
-    for (std::uint32_t port = count; port < dds_.peers; ++port) ports_.push_back(host);
+    for (std::uint32_t port = count; port < most; ++port) {
+      ports_.push_back(host);
+      port_of.push_back(port);
+    }
   }
-  const std::size_t all = participants_ + ports_.size();
   for (Number i = 0; i < participants_; ++i) {
-    addresses_[i].resize(all);
-    for (Number a = 0; a < all; ++a) {
+    if (rules_[i].only_group) continue;
+    addresses_[i].resize(port_of.size());
+    for (Number a = 0; a < port_of.size(); ++a) {
       if (a == i) continue;
       Address& address = addresses_[i][a];
-      address.is_peer = is_port(a) || is_peer[a];
-      if (address.is_peer && !prunes_) address.state = State::live;
+      address.is_peer = port_of[a] < dds_of(scenario, i).peers;
+      if (address.is_peer && !rules_[i].prunes) address.state = State::live;
     }
   }
 }
 
 void AddressSchedule::start(Number i, std::int64_t now) {
-  if (!prunes_ || only_group_) return;
+  const Rules& rules = rules_[i];
+  if (!rules.prunes || rules.only_group) return;
   for (Address& address : addresses_[i]) {
     if (!address.is_peer) continue;
-    address.prune = now + dds_.spdp.initial_prune_delay.value_or(Nanoseconds{}).count();
+    address.prune = now + rules.initial_delay;
     if (address.state == State::live) continue;
     address.state = State::ageing;
-    address.next = now + interval_;
+    address.next = now + rules.interval;
   }
 }
 
 void AddressSchedule::recognised(Number i, Number other) {
-  if (!only_group_) addresses_[i][other].state = State::live;
+  if (!rules_[i].only_group) addresses_[i][other].state = State::live;
 }
 
 void AddressSchedule::lease_ended(Number i, Number other, std::int64_t now) {
-  if (prunes_ && !only_group_) let_age(addresses_[i][other], now);
+  const Rules& rules = rules_[i];
+  if (rules.prunes && !rules.only_group) let_age(rules, addresses_[i][other], now);
 }
 
 void AddressSchedule::said_goodbye(Number i, Number other, std::int64_t now) {
-  if (!prunes_ || only_group_) return;
+  const Rules& rules = rules_[i];
+  if (!rules.prunes || rules.only_group) return;
   Address& address = addresses_[i][other];
-  if (address.is_peer && address.prune > now) return let_age(address, now);
+  if (address.is_peer && address.prune > now) return let_age(rules, address, now);
   address.state = State::unknown;
 }
 
-void AddressSchedule::let_age(Address& address, std::int64_t now) const {
+void AddressSchedule::let_age(const Rules& rules, Address& address, std::int64_t now) {
   address.state = State::ageing;
-  const std::int64_t delay = dds_.spdp.discovered_prune_delay.value_or(Nanoseconds{}).count();
-  address.prune = std::max(address.prune, now + delay);
-  address.next = now + interval_;
+  address.prune = std::max(address.prune, now + rules.discovered_delay);
+  address.next = now + rules.interval;
 }
 
 std::vector<AddressSchedule::Number> AddressSchedule::of_announcement(Number i, bool all) const {
   std::vector<Number> addresses;
-  if (has_group_) addresses.push_back(group);
+  if (rules_[i].has_group) addresses.push_back(group);
   for (Number a = 0; a < addresses_[i].size(); ++a) {
     const State state = addresses_[i][a].state;
     if (state == State::live || (all && state == State::ageing)) addresses.push_back(a);
@@ -100,7 +110,7 @@ std::vector<AddressSchedule::Number> AddressSchedule::age(Number i, std::int64_t
     if (address.prune <= now) {
       address.state = State::unknown;
     } else {
-      address.next = now + interval_;
+      address.next = now + rules_[i].interval;
       addresses.push_back(a);
     }
   }

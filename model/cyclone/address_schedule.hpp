@@ -45,14 +45,21 @@ class AddressSchedule {
     std::int64_t prune = 0;  ///< when it is dropped, if it ages then
     std::int64_t next = 0;   ///< when it is announced to, if it ages then
   };
-  void let_age(Address& address, std::int64_t now) const;
+  /// What participant i does by its profile.
+  struct Rules {
+    explicit Rules(const DdsProfile& dds);
 
-  const DdsProfile& dds_;
+    std::int64_t initial_delay;
+    std::int64_t discovered_delay;
+    bool has_group;
+    bool only_group;
+    bool prunes;
+    std::int64_t interval;  ///< between two announcements to one that ages
+  };
+  static void let_age(const Rules& rules, Address& address, std::int64_t now);
+
   const Number participants_;
-  const bool has_group_;
-  const bool only_group_;
-  const bool prunes_;
-  std::int64_t interval_;  ///< between two announcements to one that ages
+  std::vector<Rules> rules_;  // by participant
   std::vector<HostId> ports_;
   std::vector<std::vector<Address>> addresses_;  // by participant and address
 };

@@ -12,12 +12,12 @@ constexpr std::uint32_t bits_per_word = 32;
 
 EventThreads::EventThreads(const RunState& run)
     : steps_of_{run},
-      sedp_{run.scenario.dds.sedp},
-      multicast_{run.scenario.dds.allow_multicast == AllowMulticast::always},
       samples_{run.scenario, run.topology},
       stride_{writers_per_participant(run.topology)},
       writers_(std::size_t{stride_} * run.topology.participant_count()) {
-  for (Number i = 0; i < run.topology.participant_count(); ++i) threads_.emplace_back(sedp_);
+  for (Number i = 0; i < run.topology.participant_count(); ++i) {
+    threads_.emplace_back(run.profiles.of(i).sedp);
+  }
 }
 
 std::uint32_t EventThreads::samples_of(Number w) const {
@@ -42,11 +42,13 @@ void EventThreads::unmatch(Number r) {
 Destination EventThreads::readers_of(Number w) const {
   const Writer& writer = writers_[w];
   Destination to{.is_set = true, .addresses = {}, .writer = w, .version = writer.version};
-  if (multicast_ && writer.readers.size() > 1) {
-    to.addresses.push_back(group);
-    return to;
+  const auto is_in_group = [&](Number r) { return has_group(ends_of(r).destination); };
+  const bool by_group =
+      has_group(w / stride_) && std::ranges::count_if(writer.readers, is_in_group) > 1;
+  if (by_group) to.addresses.push_back(group);
+  for (const Number r : writer.readers) {
+    if (!by_group || !is_in_group(r)) to.addresses.push_back(ends_of(r).destination);
   }
-  for (const Number r : writer.readers) to.addresses.push_back(ends_of(r).destination);
   return to;
 }
 
@@ -103,7 +105,7 @@ Message EventThreads::announcement(Number i) const {
   Submessage content;
   content.kind = Submessage::Kind::spdp;
   return message(std::move(content), i, 0,
-                 multicast_ ? announcement_with_multicast_bytes : announcement_bytes);
+                 has_group(i) ? announcement_with_multicast_bytes : announcement_bytes);
 }
 
 Message EventThreads::acknack(Number r, Submessage&& content, Number known) const {

@@ -65,6 +65,11 @@ class EventThreads {
   void match(Number relation);
   void unmatch(Number relation);
   [[nodiscard]] Destination readers_of(Number writer) const;
+  /// Whether participant i sends to the group what goes to several that say they are in it, and
+  /// says so itself.
+  [[nodiscard]] bool has_group(Number i) const {
+    return steps_of_.profiles.of(i).allow_multicast == AllowMulticast::always;
+  }
 
   // Messages, without their destinations.
   [[nodiscard]] Message heartbeat(Number writer, Number announced, std::int64_t count,
@@ -96,8 +101,6 @@ class EventThreads {
   }
 
   const RunState& steps_of_;
-  const SedpProfile& sedp_;
-  const bool multicast_;
   const LifeSamples samples_;
   const Number stride_;  ///< writers of each participant
   std::vector<Thread> threads_;

@@ -51,7 +51,7 @@ LifeSamples::LifeSamples(const Scenario& scenario, const Topology& topology)
 
 void LifeSamples::plan(std::uint32_t i, const Scenario& scenario) {
   const Life& life = *scenario.deployment.life;
-  const Nanoseconds lease = lease_of(life, i).value_or(lease_of(scenario.dds));
+  const Nanoseconds lease = lease_of(life, i).value_or(lease_of(dds_of(scenario, i)));
   signs_of_life_[i] +=
       static_cast<std::uint32_t>(scenario.time_limit.count() / base_period(lease).count());
   std::vector<Planned> all;

@@ -81,7 +81,8 @@ class LivingSteps : public ThreadSteps<Host, true> {
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(rules::AnnouncingPeriod, const World& w) const {
-    return announcing_period(dds(), lease(w.template number<comp::owner::participant>())).count();
+    const auto i = w.template number<comp::owner::participant>();
+    return announcing_period(dds(i), lease(i)).count();
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(rules::LivelinessPeriod, const World& w) const {
@@ -96,7 +97,8 @@ class LivingSteps : public ThreadSteps<Host, true> {
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(rules::RepliesDue, const World& w) const {
-    return replies_due(dds(), lease(w.template number<comp::owner::participant>()));
+    const auto i = w.template number<comp::owner::participant>();
+    return replies_due(dds(i), lease(i));
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(rules::PreEmptiveInterval, const World& w) const {
@@ -275,9 +277,9 @@ class LivingSteps : public ThreadSteps<Host, true> {
   enum class State : std::uint8_t { there, leaving, gone };
 
   [[nodiscard]] const Life& life() const { return *this->steps_of_.scenario.deployment.life; }
-  [[nodiscard]] const DdsProfile& dds() const { return this->steps_of_.scenario.dds; }
+  [[nodiscard]] const DdsProfile& dds(Number i) const { return this->steps_of_.profiles.of(i); }
   [[nodiscard]] Nanoseconds lease(Number i) const {
-    return model::lease_of(life(), i).value_or(model::lease_of(dds()));
+    return model::lease_of(life(), i).value_or(model::lease_of(dds(i)));
   }
   [[nodiscard]] std::int64_t lease_of_pair(Number pair) const {
     return lease(this->steps_of_.topology.pair(pair).source).count();

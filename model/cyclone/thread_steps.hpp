@@ -81,8 +81,8 @@ class ThreadSteps : public EventThreads {
   }
   template <class World>
   [[nodiscard]] bool answer(rules::QueueIsFull, const World& w) const {
-    return threads_[w.template number<comp::owner::participant>()].queued_repairs >=
-           sedp_.max_queued_rexmit_messages;
+    const auto i = w.template number<comp::owner::participant>();
+    return threads_[i].queued_repairs >= steps_of_.profiles.of(i).sedp.max_queued_rexmit_messages;
   }
   template <class World>
   [[nodiscard]] bool answer(rules::AnswerIsKept, const World& w) const {
@@ -292,7 +292,7 @@ void ThreadSteps<Host, lives>::perform(rules::Announce, World& w) {
   m.to.is_set = true;
   m.to.addresses.push_back(group);
   const Topology& topology = steps_of_.topology;
-  for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1) && !multicast_;
+  for (Number pair = topology.first_pair(i); pair < topology.first_pair(i + 1) && !has_group(i);
        ++pair) {
     const Pair& ends = topology.pair(pair);
     if (host().value(comp::Recognised{}, ends.reverse)) m.to.addresses.push_back(ends.destination);

@@ -6,11 +6,7 @@
 namespace stormproof::model {
 
 DiscoveryBase::DiscoveryBase(RunState& run, Network& network)
-    : Stored{run},
-      network_{network},
-      spdp_{run.scenario.dds.spdp},
-      sedp_{run.scenario.dds.sedp},
-      cycles_(2 * std::size_t{run.topology.participant_count()}) {
+    : Stored{run}, network_{network}, cycles_(2 * std::size_t{run.topology.participant_count()}) {
   for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
     const std::uint32_t count = run.topology.descriptor_count(relation);
     at<Lacking>(relation) = count;
@@ -23,10 +19,11 @@ void DiscoveryBase::plan_batches(std::uint32_t w, std::int64_t stretched) {
   Cycle& clock = cycles_[w];
   clock.batches.clear();
   clock.next_batch = 0;
+  const AdaptiveProfile& policy = run_.profiles.of(w / 2).sedp.adaptive;
   const fsm::AdaptiveCycle<fsm::Plain> cycle{.contacted = clock.contacted,
                                              .responded = clock.responded,
-                                             .epsilon_num = sedp_.adaptive.epsilon_numerator,
-                                             .epsilon_den = sedp_.adaptive.epsilon_denominator};
+                                             .epsilon_num = policy.epsilon_numerator,
+                                             .epsilon_den = policy.epsilon_denominator};
   const auto size = static_cast<std::size_t>(fsm::batch_size<fsm::Plain>(cycle));
   for (const std::uint32_t relation : open_relations(w)) {
     if (!at<comp::Contacted>(relation) || at<comp::Responded>(relation)) continue;

@@ -192,8 +192,6 @@ class DiscoveryBase : public Stored<DiscoveryBase, HostBase, SharedThings, Share
   }
 
   Network& network_;
-  const SpdpProfile& spdp_;
-  const SedpProfile& sedp_;
 
   /// The cycle of the adaptive policy.
   struct Cycle {

@@ -5,6 +5,7 @@
 
 #include "model/counts.hpp"
 #include "model/engine/event_queue.hpp"
+#include "model/engine/profiles.hpp"
 #include "model/engine/topology.hpp"
 #include "model/life.hpp"
 #include "model/mutation.hpp"
@@ -19,6 +20,7 @@ struct RunState {
   RunState(const Scenario& scenario_, Probe* probe_, const Mutation* mutation_ = nullptr,
            SameHostPairs same_host = SameHostPairs::left_out)
       : scenario{scenario_},
+        profiles{scenario_},
         topology{scenario_.deployment, scenario_.dds.descriptors, same_host},
         probe{probe_},
         reports{probe_ == nullptr ? Reports{} : probe_->reports()},
@@ -67,6 +69,7 @@ struct RunState {
   }
 
   const Scenario& scenario;
+  const Profiles profiles;  ///< of its participants
   const Topology topology;
   Probe* const probe;
   const Reports reports;  ///< that the probe wants

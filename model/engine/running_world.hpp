@@ -5,6 +5,7 @@
 //   Composition, Packet                  whose rules these are, and what its packets are
 //   topology()                           the numbers of pairs and relations
 //   knob(tag), answer(tag, world)        of a switch or delay; of what only a host knows
+//   profiles()                           if participants may have different ones (profiles.hpp)
 //   value(tag, n), assign(tag, n[, d], value)        of a flag or number of owner n
 //   assign_each(tag, n, set), or assign_word(tag, n, k, bits) for each word, ascending
 //   word(tag, n, k)                      64 descriptors of a flag; of a field of `packet`
@@ -212,7 +213,7 @@ class RunningWorld {
   template <class Tag>
   auto operator()(Tag tag) {
     if constexpr (std::derived_from<Tag, comp::Switch> || std::derived_from<Tag, comp::Delay>) {
-      return host_.knob(tag);
+      return knob(tag);
     } else if constexpr (std::derived_from<Tag, comp::Fact>) {
       if constexpr (requires { host_.fact(tag, *this); }) {
         return of_domain(host_.fact(tag, *this));
@@ -448,7 +449,7 @@ class RunningWorld {
   template <class Wait, class T>
   void after(Wait wait, T timer, Site site = Site::here()) {
     stands_at(site);
-    host_.schedule(timer, number<T::owner>(), host_.now() + host_.knob(wait));
+    host_.schedule(timer, number<T::owner>(), host_.now() + knob(wait));
   }
   template <class T>
   void at(Int time, T timer, Site site = Site::here()) {
@@ -495,6 +496,39 @@ class RunningWorld {
   }
 
  private:
+  template <class Tag>
+  [[nodiscard]] auto knob(Tag tag) const {
+    if constexpr (is_knob<Tag> && requires { host_.profiles(); }) {
+      if (host_.profiles().are_mixed()) [[unlikely]]
+        return owned_knob(tag);
+    }
+    return host_.knob(tag);
+  }
+  /// As the participant has it whose value counts.
+  template <class Tag>
+  [[nodiscard]] auto owned_knob(Tag tag) const {
+    const auto [source, destination] = ends();
+    const auto of = [&](std::uint32_t i) { return knob_value(tag, host_.profiles().of(i)); };
+    if constexpr (std::derived_from<Tag, comp::OfBothEnds>) {
+      return of(source) && of(destination);
+    } else {
+      return of(std::derived_from<Tag, comp::OfDestination> ? destination : source);
+    }
+  }
+  /// Source and destination; where there is one participant, it is both.
+  [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> ends() const {
+    constexpr std::uint8_t here = place.indices & ~comp::owner::descriptor_index;
+    if constexpr (here == comp::owner::relation.indices || here == comp::owner::pair.indices ||
+                  here == comp::owner::control_relation.indices) {
+      const Pair& pair = host_.topology().pair(number<comp::owner::pair>());
+      return {pair.source, pair.destination};
+    } else if constexpr (here == comp::owner::participant.indices) {
+      return {subject_, subject_};
+    } else {
+      const std::uint32_t i = number<comp::owner::participant>();
+      return {i, i};
+    }
+  }
   [[gnu::always_inline]] void stands_at([[maybe_unused]] Site site) {
     if constexpr (!std::is_same_v<Site, Anywhere>) host_.stands_at(site);
   }

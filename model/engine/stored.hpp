@@ -75,6 +75,7 @@ class HostBase : public Implementation {
   [[nodiscard]] auto knob(Knob knob) const {
     return knob_value(knob, run_.scenario.dds);
   }
+  [[nodiscard]] const Profiles& profiles() const { return run_.profiles; }
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::Now, const World&) const {
     return now();

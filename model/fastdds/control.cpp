@@ -12,13 +12,15 @@ Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 }  // namespace
 
 ControlRelations::ControlRelations(const Topology& topology, const Scenario& scenario)
-    : topology_{topology},
-      lookups_{looks_up_types(scenario.dds) ? std::uint32_t{topic::lookups.size()} : 0} {
+    : topology_{topology} {
   const std::uint32_t participants = scenario.deployment.size();
   for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
     first_relation_.push_back(count());
     const Pair& p = topology.pair(pair);
-    std::uint32_t relations = lookups_;
+    const bool ask = looks_up_types(dds_of(scenario, p.source)) &&
+                     looks_up_types(dds_of(scenario, p.destination));
+    lookups_.push_back(ask ? topic::lookups.size() : 0);
+    std::uint32_t relations = lookups_.back();
     if (p.cross_host) relations += 1;  // a Discovery Server has no topics
     if (p.cross_host && p.source != participants && p.destination != participants) {
       relations +=
@@ -33,7 +35,7 @@ ControlRelations::ControlRelations(const Topology& topology, const Scenario& sce
 
 std::uint32_t ControlRelations::find(std::uint32_t pair, std::uint32_t t) const {
   if (fastdds::is_lookup(t)) {
-    return lookups_ > 0 ? first_lookup(pair) + (t - topic::lookups.front()) : topic::none;
+    return lookups_[pair] > 0 ? first_lookup(pair) + (t - topic::lookups.front()) : topic::none;
   }
   const std::uint32_t relation = first_relation_[pair] + t;
   return relation < first_lookup(pair) ? relation : topic::none;
@@ -50,7 +52,7 @@ Packet ControlRelations::packet_of(PacketKind kind, std::uint32_t relation,
 }
 
 void Protocol::open(ControlSide side) {
-  if (side.relation == topic::none) return;  // only a mistake asks for what does not exist
+  if (side.relation == topic::none) return;  // as lookups that one end does not know
   if (side.writer)
     run_rule<comp::Happens<control::ControlWriterOpens>>(*this, side.relation);
   else
@@ -64,7 +66,6 @@ void Protocol::open_builtin(std::uint32_t pair) {
     open({control_.find(pair, topic::liveliness), false});
     open({control_.find(back, topic::liveliness), true});
   }
-  if (!looks_up_types(run_.scenario.dds)) return;
   for (const std::uint32_t t : topic::lookups) open({control_.find(pair, t), false});
   for (const std::uint32_t t : topic::lookups) open({control_.find(back, t), true});
 }

@@ -61,11 +61,11 @@ class ControlRelations {
 
  private:
   [[nodiscard]] std::uint32_t first_lookup(std::uint32_t pair) const {
-    return first_relation_[pair + 1] - lookups_;
+    return first_relation_[pair + 1] - lookups_[pair];
   }
 
   const Topology& topology_;
-  std::uint32_t lookups_;                      // of each pair, its last ones
+  std::vector<std::uint8_t> lookups_;          // by pair: how many, its last ones
   std::vector<std::uint32_t> first_relation_;  // by pair
   std::vector<std::uint32_t> pairs_;           // by relation
 };

@@ -50,7 +50,10 @@ const VersionSizes& sizes_of(const DdsProfile& dds) {
 }
 
 DdsProfile deployed_profile(const Scenario& scenario) {
-  DdsProfile dds = scenario.dds;
+  return deployed_profile(scenario, scenario.dds);
+}
+
+DdsProfile deployed_profile(const Scenario& scenario, DdsProfile dds) {
   Bytes& extra = dds.version.descriptor_extra_bytes;
   if (scenario.deployment.types && extra == Bytes{0}) extra = Bytes{type_information_bytes};
   return dds;

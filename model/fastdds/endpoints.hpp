@@ -60,7 +60,8 @@ struct VersionSizes {
 
 /// What a descriptor says of its type if endpoints have types: its TypeInformation and its hash.
 inline constexpr std::int64_t type_information_bytes = 96 + 92;
-/// The profile as the deployment has it: with what descriptors say of types.
+/// A profile, or the scenario's, as the deployment has it: with what descriptors say of types.
+[[nodiscard]] DdsProfile deployed_profile(const Scenario& scenario, DdsProfile dds);
 [[nodiscard]] DdsProfile deployed_profile(const Scenario& scenario);
 
 /// Whether participants have endpoints that ask for types.

@@ -58,14 +58,16 @@ std::uint32_t Lookups::take(std::uint32_t participant) {
 
 std::int64_t Protocol::last_sample_bytes(std::uint32_t w) const {
   const Sample& sample = lookups_.last_sample(w - first_lookup_writer_);
-  return sample_bytes(run_.scenario.dds, sample.stage, lookups_.type_count(sample.looked_up));
+  return sample_bytes(own_of(participant_of(w)).dds, sample.stage,
+                      lookups_.type_count(sample.looked_up));
 }
 
 void Protocol::pack_sample(std::uint32_t w, const std::vector<std::uint32_t>& readers) {
   Message& message = async_message_;
   const std::int64_t bytes = timestamp_bytes + last_sample_bytes(w);
-  if (message.open && (message.writer != w || message.readers != readers ||
-                       message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
+  const std::int64_t limit = sedp_of(participant_of(w)).grouping_limit_bytes.count();
+  if (message.open &&
+      (message.writer != w || message.readers != readers || message.bytes + bytes > limit)) {
     flush(message, SendMode::async);
   }
   if (!message.open) message.start(w, readers, 0);

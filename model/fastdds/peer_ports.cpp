@@ -17,8 +17,9 @@ std::vector<bool> reached_by_announcements(const Scenario& scenario) {
   std::vector<bool> reached(scenario.deployment.size(), true);
   if (scenario.dds.discovery != Discovery::static_peers) return reached;
   for (const auto& [host, there] : participants_at_ports(scenario.deployment)) {
-    for (std::size_t port = scenario.dds.peer_ports; port < there.size(); ++port) {
-      reached[there[port]] = false;
+    for (std::size_t port = 0; port < there.size(); ++port) {
+      reached[there[port]] =
+          !some_profile(scenario, [&](const DdsProfile& dds) { return port >= dds.peer_ports; });
     }
   }
   return reached;

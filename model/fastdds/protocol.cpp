@@ -13,14 +13,12 @@ namespace stormproof::model::fastdds {
 Protocol::Protocol(RunState& run, Network& network)
     : Stored{run, network},
       ControlSteps{run},
-      sizes_{sizes_of(run.scenario.dds)},
-      statistics_bytes_{run.scenario.dds.version.statistics_bytes.count()},
-      dds_{deployed_profile(run.scenario)},
       first_lookup_writer_{2 * run.topology.participant_count()},
       participants_(run.topology.participant_count()),
       writers_((2 + control_writers) * std::size_t{run.topology.participant_count()}),
       sends_records_{network.takes_records() && !run.scenario.deployment.life},
       generated_{counts_at_admission(run) ? of_no_interest_ : run.counts} {
+  for (const DdsProfile& dds : run.profiles.different()) own_.emplace_back(run.scenario, dds);
   for (std::uint32_t w = 0; w < writers_.size(); ++w) refill(w);
 }
 
@@ -129,14 +127,15 @@ void Protocol::send_spdp_to_known(std::uint32_t i) {
 /// whether somebody is there or not. On one's own host nobody hears of the latter.
 void Protocol::send_spdp_to_ports(std::uint32_t i) {
   const HostId own = run_.scenario.deployment.participants[i].host;
+  const std::int64_t bytes = own_of(i).sizes.announcement;
   for (const auto& [host, there] : participants_at_ports(run_.scenario.deployment)) {
-    for (std::uint32_t port = 0; port < run_.scenario.dds.peer_ports; ++port) {
+    for (std::uint32_t port = 0; port < own_of(i).dds.peer_ports; ++port) {
       if (port < there.size()) {
         if (there[port] != i) send_spdp_copy(run_.topology.pair_between(i, there[port]));
       } else if (host != own) {
         ++generated_.spdp_unicast;
         const std::uint32_t somebody_there = run_.topology.pair_between(i, there.front());
-        Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, sizes_.announcement);
+        Packet packet = packet_of(PacketKind::spdp_unicast, somebody_there, bytes);
         packet.to_nobody = true;
         send_across(i, std::move(packet));
       }
@@ -147,18 +146,20 @@ void Protocol::send_spdp_to_ports(std::uint32_t i) {
 void Protocol::send_spdp_multicast(std::uint32_t i) {
   if (run_.scenario.dds.discovery == Discovery::static_peers) return send_spdp_to_ports(i);
   ++generated_.spdp_multicast;
+  const std::int64_t bytes = own_of(i).sizes.announcement;
   for (std::uint32_t pair = run_.topology.first_pair(i); pair < run_.topology.first_pair(i + 1);
        ++pair) {
     const Pair& p = run_.topology.pair(pair);
     if (p.cross_host) continue;
-    send_on_host(packet_of(PacketKind::spdp_multicast, i, sizes_.announcement), p.destination);
+    send_on_host(i, packet_of(PacketKind::spdp_multicast, i, bytes), p.destination);
   }
-  send_across(i, packet_of(PacketKind::spdp_multicast, i, sizes_.announcement));
+  send_across(i, packet_of(PacketKind::spdp_multicast, i, bytes));
 }
 
 void Protocol::send_spdp_copy(std::uint32_t pair) {
-  if (run_.topology.pair(pair).cross_host) ++generated_.spdp_unicast;
-  send(packet_of(PacketKind::spdp_unicast, pair, sizes_.announcement));
+  const Pair& p = run_.topology.pair(pair);
+  if (p.cross_host) ++generated_.spdp_unicast;
+  send(packet_of(PacketKind::spdp_unicast, pair, own_of(p.source).sizes.announcement));
 }
 
 void Protocol::send_heartbeat(std::uint32_t relation, std::uint32_t announced, std::int64_t bytes) {
@@ -188,7 +189,7 @@ void Protocol::send_to_readers(PacketNumbers heartbeat, const std::vector<std::u
     const Pair& to = ends(relation);
     heartbeat.pair = relation / 2;
     if (!to.cross_host) {
-      send_on_host(heartbeat, to.destination);
+      send_on_host(to.source, heartbeat, to.destination);
     } else if (!is_recorded) {
       Packet packet;
       packet.become(heartbeat);
@@ -228,7 +229,7 @@ void Protocol::send(Packet&& packet) {
   if (p.cross_host)
     send_across(from, std::move(packet));
   else
-    send_on_host(std::move(packet), to);
+    send_on_host(from, std::move(packet), to);
 }
 
 /// Where endpoints have types also what has arrived, and waits for its type.

@@ -198,7 +198,7 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   template <class World, class To>
   void perform(rules::Charge, World& w, To) {
     constexpr SendMode mode = To::repairs ? SendMode::async : SendMode::sync;
-    charge(message(mode), bytes_of(stream_of(message(mode).writer), w.descriptor()), mode);
+    charge(message(mode), bytes_of(message(mode).writer, w.descriptor()), mode);
   }
   template <class World, class To>
   void perform(rules::Flush, World&, To) {
@@ -267,18 +267,21 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   /// Announcement 0 of participant i.
   virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
   [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const;
-  [[nodiscard]] std::int64_t bytes_of(Stream s, std::uint32_t d) const {
-    return (traits_of(dds_).has_server ? sizes_.inline_qos : 0) + submessage_bytes(dds_, s, d);
+  /// Of a descriptor of the writer.
+  [[nodiscard]] std::int64_t bytes_of(std::uint32_t writer, std::uint32_t d) const {
+    const Own& own = own_of(writer / 2);
+    return (traits_of(own.dds).has_server ? own.sizes.inline_qos : 0) +
+           submessage_bytes(own.dds, stream_of(writer), d);
   }
-  // Every packet has what the statistics module adds.
+  // Every packet has what the statistics module of its sender adds.
   void send_across(std::uint32_t from, Packet&& packet) {
-    packet.payload_bytes += static_cast<std::uint32_t>(statistics_bytes_);
+    packet.payload_bytes += own_of(from).statistics_bytes;
     network_.emit(from, std::move(packet));
   }
   template <class P>
-  void send_on_host(P&& packet, std::uint32_t to) {
+  void send_on_host(std::uint32_t from, P&& packet, std::uint32_t to) {
     std::remove_cvref_t<P> carried{std::forward<P>(packet)};
-    carried.payload_bytes += static_cast<std::uint32_t>(statistics_bytes_);
+    carried.payload_bytes += own_of(from).statistics_bytes;
     network_.loop_back(std::move(carried), to);
   }
   /// Sends a unicast packet by the channel, or by loopback if both ends are on one host.
@@ -310,9 +313,24 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
     bool is_suspended = false;    ///< it stalls now, before it comes to descriptors
     std::uint32_t endpoints = 0;  ///< created so far, of a participant that may stall
   };
-  const VersionSizes& sizes_;
-  const std::int64_t statistics_bytes_;
-  const DdsProfile dds_;  // with what descriptors say of types
+  /// What follows from the profile of a participant.
+  struct Own {
+    Own(const Scenario& scenario, const DdsProfile& profile)
+        : dds{deployed_profile(scenario, profile)},
+          sizes{sizes_of(dds)},
+          statistics_bytes{static_cast<std::uint32_t>(dds.version.statistics_bytes.count())} {}
+
+    DdsProfile dds;  ///< with what descriptors say of types
+    const VersionSizes& sizes;
+    std::uint32_t statistics_bytes;
+  };
+  [[nodiscard]] const Own& own_of(std::uint32_t participant) const {
+    return own_[run_.profiles.number_of(participant)];
+  }
+  [[nodiscard]] const SedpProfile& sedp_of(std::uint32_t participant) const {
+    return own_of(participant).dds.sedp;
+  }
+  std::vector<Own> own_;  // by number of the profile
   const std::uint32_t first_lookup_writer_;
   std::vector<Participant> participants_;
   /// 2 · participant + stream, then, from `first_lookup_writer_` on, those of questions, answers

@@ -10,14 +10,15 @@
 namespace stormproof::model::fastdds {
 
 void Protocol::refill(std::uint32_t w) {
-  writers_[w].budget = sedp_.piggyback_threshold_bytes.count();
+  writers_[w].budget = sedp_of(participant_of(w)).piggyback_threshold_bytes.count();
 }
 
 void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
                     const std::vector<std::uint32_t>& readers, SendMode mode) {
-  const std::int64_t bytes = timestamp_bytes + bytes_of(stream_of(w), d);
+  const std::int64_t bytes = timestamp_bytes + bytes_of(w, d);
+  const std::int64_t limit = sedp_of(w / 2).grouping_limit_bytes.count();
   if (message.open && (message.writer != w || message.readers != readers || message.carries(d) ||
-                       message.bytes + bytes > sedp_.grouping_limit_bytes.count())) {
+                       message.bytes + bytes > limit)) {
     flush(message, mode);
   }
   if (!message.open) {
@@ -36,9 +37,10 @@ void Protocol::pack(Message& message, std::uint32_t w, std::uint32_t d,
 /// Sends a message that takes no more, and charges the DATA just added against the piggyback budget
 /// of its writer.
 void Protocol::charge(Message& message, std::int64_t submessage, SendMode mode) {
-  const std::uint32_t most = run_.scenario.dds.version.max_data_per_message;
+  const DdsProfile& dds = own_of(participant_of(message.writer)).dds;
+  const std::uint32_t most = dds.version.max_data_per_message;
   if (most > 0 && message.data >= most) flush(message, mode);
-  if (sedp_.piggyback != Piggyback::off && is_used_up(message, submessage, mode)) {
+  if (dds.sedp.piggyback != Piggyback::off && is_used_up(message, submessage, mode)) {
     piggyback(message, message.writer, mode);
   }
 }
@@ -49,11 +51,12 @@ bool Protocol::is_used_up(const Message& message, std::int64_t submessage, SendM
   const std::uint32_t w = message.writer;
   const Participant& participant = participants_[participant_of(w)];
   Writer& writer = writers_[w];
-  if (sedp_.piggyback == Piggyback::group) {
+  const Piggyback piggyback = sedp_of(participant_of(w)).piggyback;
+  if (piggyback == Piggyback::group) {
     const std::uint64_t now = mode == SendMode::async ? participant.group_number : 0;
     return std::exchange(writer.group_number, now) != now;
   }
-  const bool cumulative = sedp_.piggyback == Piggyback::cumulative && mode == SendMode::async;
+  const bool cumulative = piggyback == Piggyback::cumulative && mode == SendMode::async;
   writer.budget -= cumulative ? participant.sent_bytes + (message.open ? message.bytes : 0)
                               : message_header_bytes + timestamp_bytes + submessage;
   return writer.budget < 0;
@@ -64,8 +67,9 @@ void Protocol::count_sent(std::uint32_t i, std::int64_t bytes) {
   Participant& participant = participants_[i];
   participant.sent_bytes += bytes;
   participant.group_bytes += bytes;
-  if (participant.group_bytes <= sedp_.piggyback_threshold_bytes.count()) return;
-  participant.group_bytes -= sedp_.piggyback_threshold_bytes.count();
+  const std::int64_t threshold = sedp_of(i).piggyback_threshold_bytes.count();
+  if (participant.group_bytes <= threshold) return;
+  participant.group_bytes -= threshold;
   ++participant.group_number;
 }
 
@@ -94,7 +98,8 @@ void Protocol::flush(Message& message, SendMode mode) {
   if (!message.open) return;
   message.open = false;
   if (mode == SendMode::async) {
-    count_sent(participant_of(message.writer), message.bytes + statistics_bytes_);
+    const std::uint32_t i = participant_of(message.writer);
+    count_sent(i, message.bytes + own_of(i).statistics_bytes);
   }
   if (has_samples(message.writer)) return send_samples(message);
   if (message.data == 0) {

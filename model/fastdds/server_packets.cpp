@@ -21,7 +21,7 @@ void ServerProtocol::send_registration(PacketKind kind, Number pair, bool initia
   std::int64_t bytes = acknack_bytes;
   std::uint64_t* count = &generated().pdp_acknack;
   if (kind == PacketKind::registration) {
-    bytes = sizes_.registration;
+    bytes = own_of(0).sizes.registration;
     count = &generated().pdp_data;
   } else if (kind == PacketKind::registration_heartbeat) {
     bytes = heartbeat_to_one_bytes;
@@ -84,14 +84,16 @@ void ServerProtocol::send_relayed(Number relation, Relayed relayed) {
   } else if (relayed.has_data && relayed.is_announcement) {
     if (cross_host) ++counts.pdp_data;
     const std::int64_t ride = relayed.has_heartbeat ? heartbeat_submessage_bytes : 0;
-    weigh(ride + (relayed.participant == server_id() ? sizes_.of_server : sizes_.passed_on));
+    const VersionSizes& sizes = own_of(server_id()).sizes;
+    weigh(ride + (relayed.participant == server_id() ? sizes.of_server : sizes.passed_on));
   } else if (relayed.has_data) {
     const bool initial = is_first_for(client_of(pair), relayed);
+    const auto writer = static_cast<Number>(2 * relayed.participant + index_of(relayed.stream));
     if (cross_host) ++(initial ? counts.initial_data : counts.repair_data);
     packet.carries_initial = initial;
     packet.use = initial ? TrafficClass::initial_data : TrafficClass::repair_data;
     weigh(message_header_bytes + destination_bytes + timestamp_bytes +
-          bytes_of(relayed.stream, relayed.descriptor) + heartbeat_submessage_bytes);
+          bytes_of(writer, relayed.descriptor) + heartbeat_submessage_bytes);
   }
   packet.detail = relay;
   packet.carries_heartbeat = relayed.has_heartbeat;

@@ -12,6 +12,8 @@ ProtocolBase::ProtocolBase(RunState& run, Network& network)
       writers_(2 * std::size_t{run.topology.participant_count()}),
       relations_(run.topology.relation_count()),
       known_rank_(run.topology.pair_count(), no_rank),
+      spdp_{run.scenario.dds.spdp},
+      sedp_{run.scenario.dds.sedp},
       sizes_{run.scenario.dds.descriptors} {
   for (std::uint32_t relation = 0; relation < relations_.size(); ++relation) {
     relations_[relation].unacknowledged = run.topology.descriptor_count(relation);

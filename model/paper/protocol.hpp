@@ -127,6 +127,9 @@ class ProtocolBase : public Stored<ProtocolBase, DiscoveryBase, Things, PlainCol
   std::vector<Writer> writers_;  // 2 · participant + stream
   std::vector<Relation> relations_;
   std::vector<std::uint32_t> known_rank_;  // by pair (i, j): when i recognised j
+  // All participants have one profile.
+  const SpdpProfile& spdp_;
+  const SedpProfile& sedp_;
   const DescriptorSizes sizes_;
 };
 

@@ -186,7 +186,15 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
   }
   /// It takes no more DATA, and is sent before its last one is charged.
   [[nodiscard]] bool is_full(const OpenMessage& message) const {
-    const std::size_t most = this->run_.scenario.dds.version.max_data_per_message;
+    if (message.to.empty()) return false;
+    const Number n = message.to.front();
+    Number pair = n;
+    if constexpr (requires(const Self& self) { self.pair_of_control(n); }) {
+      const auto& self = static_cast<const Self&>(*this);
+      if (message.message.is_of_control()) pair = self.pair_of_control(n);
+    }
+    const Number writer = this->topology().pair(pair).source;
+    const std::size_t most = this->run_.profiles.of(writer).version.max_data_per_message;
     return most > 0 && message.carried.size() >= most;
   }
   /// Whether the run has sent a message, without the descriptor or sample that is put now.

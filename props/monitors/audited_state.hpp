@@ -47,7 +47,10 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
       : Below{run, audit},
         readers_(Columns::template rows<comp::owner::writer>(run)),
         received_(run.topology.relation_count()),
-        has_bases_{model::traits_of(run.scenario.dds).acknacks_have_bases} {
+        has_bases_{model::traits_of(run.scenario.dds).acknacks_have_bases},
+        some_ride_{some_profile(run.scenario, [](const model::DdsProfile& dds) {
+          return dds.sedp.piggyback != model::Piggyback::off;
+        })} {
     if constexpr (has_part<Composition, comp::Reader>) {
       for (Number r = 0; r < run.topology.relation_count(); ++r) {
         this->state(comp::Reader{}, r) = first_state(comp::Reader{}, r);
@@ -61,6 +64,7 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
   [[nodiscard]] auto knob(Knob knob) const {
     return model::knob_value(knob, this->run_.scenario.dds);
   }
+  [[nodiscard]] const model::Profiles& profiles() const { return this->run_.profiles; }
   [[nodiscard]] std::int64_t now() const { return this->run_.now.count(); }
 
   // What only a host knows.
@@ -94,7 +98,7 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
   Choice choice() {
     bool& holds = chosen_[choices_++ % chosen_.size()];
     holds = false;
-    return Choice{holds} && this->run_.scenario.dds.sedp.piggyback != model::Piggyback::off;
+    return Choice{holds} && some_ride_;
   }
 
   // What packets say. Of the first descriptors of a stream it is how many these are.
@@ -280,6 +284,7 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
   std::array<bool, 8> chosen_{};  // by the contract that is executed
   std::size_t choices_ = 0;
   const bool has_bases_;  // ACKNACKs
+  const bool some_ride_;  // HEARTBEATs, in DATA
 };
 
 }  // namespace stormproof::props

@@ -57,7 +57,7 @@ void Follower::announce_to_ports(Number i) {
   Message message;
   message.kind = model::PacketKind::spdp_unicast;
   for (const auto& [host, there] : model::fastdds::participants_at_ports(deployment)) {
-    for (Number port = 0; port < run_.scenario.dds.peer_ports; ++port) {
+    for (Number port = 0; port < run_.profiles.of(i).peer_ports; ++port) {
       message.to_nobody = port >= there.size();
       const Number somebody = message.to_nobody ? there.front() : there[port];
       if (somebody == i) continue;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/engine/profiles.hpp"
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -28,7 +29,7 @@ class Suppression : public Observer {
   explicit Suppression(const model::Scenario& scenario)
       : Observer{"timer.suppression-honoured"},
         waits_{model::traits_of(scenario.dds).waits_for_source},
-        duration_{scenario.dds.sedp.nack_suppression_duration.count()} {}
+        profiles_{scenario} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -58,7 +59,7 @@ class Suppression : public Observer {
     if (!shortest_) return {"No suppression ended."};
     return {"The shortest suppression of a descriptor was " +
             time_text(model::Nanoseconds{*shortest_}) + "; τ_S is " +
-            time_text(model::Nanoseconds{duration_}) + "."};
+            (profiles_.are_mixed() ? "each writer's own" : time_text(duration_of(0))) + "."};
   }
 
  private:
@@ -77,15 +78,20 @@ class Suppression : public Observer {
     }
     const std::int64_t lasted = now().count() - left;
     shortest_ = std::min(shortest_.value_or(lasted), lasted);
-    if (lasted >= duration_) return;
+    const model::Nanoseconds duration = duration_of(topology().pair(relation / 2).source);
+    if (lasted >= duration.count()) return;
     object_now("The suppression of " + descriptor_text(topology(), relation, d) + " ends at " +
                time_text(now()) + ", " + time_text(model::Nanoseconds{lasted}) +
                " after its own repair " + deed + " at " + time_text(model::Nanoseconds{left}) +
-               "; τ_S is " + time_text(model::Nanoseconds{duration_}) + ".");
+               "; τ_S is " + time_text(duration) + ".");
+  }
+
+  [[nodiscard]] model::Nanoseconds duration_of(std::uint32_t writer) const {
+    return profiles_.of(writer).sedp.nack_suppression_duration;
   }
 
   bool waits_;
-  std::int64_t duration_;
+  model::Profiles profiles_;
   RelationValues<std::int64_t> left_;
   std::optional<std::int64_t> shortest_;
 };

@@ -138,12 +138,13 @@ Digest digest_of(const model::Deployment& deployment) {
   append_fleet(deployment, text);
   for (const model::Participant& participant : deployment.participants) {
     // A new member has to be named here; it would not compile otherwise.
-    const auto& [host, publications, subscriptions, start, endpoints_done, open, ready] =
+    const auto& [host, publications, subscriptions, start, endpoints_done, open, ready, dds] =
         participant;
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {}", host.value, publications,
                    subscriptions, start.count(), endpoints_done.count());
     if (open) fmt::format_to(std::back_inserter(text), " open {}", open->count());
     if (ready) fmt::format_to(std::back_inserter(text), " ready {}", ready->count());
+    if (dds) fmt::format_to(std::back_inserter(text), " dds {}", hex(digest_of(*dds)));
     text.push_back('\n');
   }
   return digest_of(std::string_view{text.data(), text.size()});

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "model/config/knobs/dds_knobs.hpp"
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/deployment.hpp"
@@ -47,6 +48,7 @@ inline constexpr std::string_view rate_key = "rate";
 inline constexpr std::string_view access_point_key = "access_point";
 inline constexpr std::string_view power_save_key = "power_save";
 inline constexpr std::string_view name_key = "name";
+inline constexpr std::string_view own_profile_key = "dds";  ///< of a host or a participant
 
 void visit_knobs(auto& visit, Is<Host> auto& host) {
   visit.knob(name_key, host.name, TextType{}, "name in reports and errors");
@@ -60,6 +62,10 @@ void visit_knobs(auto& visit, Is<Host> auto& host) {
   visit.knob(access_point_key, host.access_point, TextType{},
              "name of the station's access point; the first one if absent", Presence::optional);
   visit.section(power_save_key, host.power_save, "a station that sleeps between beacons",
+                Presence::optional);
+  visit.section(own_profile_key, host.dds,
+                "DDS profile of its participants that have none of their own; that of the scenario "
+                "if absent",
                 Presence::optional);
   const bool wired = host.link == Link::wired;  // known only now
   visit.rule(!wired || !host.rate, rate_key, "no such key, or link: wireless");

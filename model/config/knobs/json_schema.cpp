@@ -110,7 +110,7 @@ void SchemaVisitor::section(std::string_view key, const Section& member, std::st
                             Presence presence, const auto&... context) {
   if (exclude(key, presence)) return;
   Json schema;
-  if constexpr (std::same_as<Section, DdsProfile>) {
+  if constexpr (std::same_as<Section, DdsProfile> || std::same_as<Section, Shared<DdsProfile>>) {
     schema = name_or(reference(schema_file_name(SchemaKind::dds)));
   } else if constexpr (std::same_as<Section, WirelessProfile>) {
     schema = name_or(reference(schema_file_name(SchemaKind::wireless)));

@@ -3,6 +3,7 @@
 #include "model/config/knobs/knob_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <set>
 
 #include <fmt/ranges.h>
@@ -133,12 +134,23 @@ void KnobReader::fail(const Place& place, std::string message) {
   if (!error_) error_ = error_at(place, std::move(message));
 }
 
+namespace {
+/// The value of a key, or of a number in a list; null if there is none.
+const Node* below(const Node& node, std::string_view key) {
+  if (!node.is_sequence()) return node.find(key);
+  std::size_t number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+  const bool is_number = error == std::errc{} && end == key.data() + key.size();
+  return is_number && number < node.items.size() ? &node.items[number] : nullptr;
+}
+}  // namespace
+
 void KnobReader::rule(bool holds, std::string_view key, std::string_view expected) {
   if (holds || error_) return;
   const Node* node = &map_;
   for (std::string_view rest = key; node != nullptr && !rest.empty();) {
     const std::size_t dot = std::min(rest.find('.'), rest.size());
-    node = node->find(rest.substr(0, dot));
+    node = below(*node, rest.substr(0, dot));
     rest.remove_prefix(std::min(dot + 1, rest.size()));
   }
   const Node& blamed = node != nullptr ? *node : map_;
@@ -237,6 +249,27 @@ void read_form(const Node& map, const std::string& path, Deployment& value,
   visit_common_knobs(reader, value);
 }
 
+/// The profile of a host is that of its participants. Hosts that have nothing else to say are
+/// those that nobody lists.
+void hand_out_profiles(Deployment& deployment) {
+  bool some = false;
+  for (Participant& participant : deployment.participants) {
+    if (participant.host.value >= deployment.hosts.size()) continue;
+    const Shared<DdsProfile>& of_host = deployment.hosts[participant.host.value].dds;
+    if (of_host && !participant.dds) participant.dds = of_host;
+  }
+  for (Host& host : deployment.hosts) {
+    some = some || host.dds.has_value();
+    host.dds.reset();
+  }
+  const auto is_plain = [](const Host& host) {
+    return host.link == Link::wireless && !host.rate && !host.access_point && !host.power_save;
+  };
+  if (some && deployment.access_points.empty() && std::ranges::all_of(deployment.hosts, is_plain)) {
+    deployment.hosts.clear();
+  }
+}
+
 void check_fleet(const Node& map, const std::string& path, const Deployment& value,
                  std::optional<InputError>& error) {
   if (error) return;
@@ -285,6 +318,7 @@ void read_knobs(const Node& map, const std::string& path, Deployment& value,
     read_form<HomogeneousForm>(map, path, value, error);
   }
   check_fleet(map, path, value, error);
+  if (!error) hand_out_profiles(value);
   if (!error && value.schedule) draw(value, list, path, error);
 }
 

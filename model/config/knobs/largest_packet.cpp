@@ -6,6 +6,7 @@
 
 #include "model/cyclone/endpoints.hpp"
 #include "model/descriptor_sizes.hpp"
+#include "model/engine/profiles.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
@@ -78,8 +79,19 @@ LargestPacket largest_of(Of<fsm::composition::cyclone::Cyclone>, const Scenario&
 }  // namespace
 
 LargestPacket largest_packet(const Scenario& scenario) {
-  return visit_composition(scenario.dds,
-                           [&](auto composition) { return largest_of(composition, scenario); });
+  const auto largest = [](const Scenario& one) {
+    return visit_composition(one.dds,
+                             [&](auto composition) { return largest_of(composition, one); });
+  };
+  if (!is_mixed(scenario)) return largest(scenario);
+  std::vector<LargestPacket> of_each;
+  const Profiles profiles{scenario};
+  for (const DdsProfile& dds : profiles.different()) {
+    Scenario one = scenario;
+    one.dds = dds;
+    of_each.push_back(largest(one));
+  }
+  return *std::ranges::max_element(of_each, {}, &LargestPacket::payload);
 }
 
 }  // namespace stormproof::model::config

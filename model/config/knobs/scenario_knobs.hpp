@@ -11,6 +11,7 @@
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/largest_packet.hpp"
 #include "model/config/knobs/life_knobs.hpp"
+#include "model/config/knobs/mixed_profiles.hpp"
 #include "model/config/knobs/type_knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
@@ -128,6 +129,10 @@ void visit_knobs(auto& visit, Is<Participant> auto& participant) {
              "what reaches it before is received then; not before its start, which it is if "
              "absent; used by implementation: cyclone",
              Presence::optional);
+  visit.section(own_profile_key, participant.dds,
+                "its DDS profile, of the implementation of the scenario's; that of its host or of "
+                "the scenario if absent",
+                Presence::optional);
 }
 
 void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
@@ -265,11 +270,17 @@ void visit_knobs(auto& visit, Is<Variation> auto& vary) {
              Presence::optional);
 }
 
-/// Who is more on a host than find a port or an index is not there.
+/// Who is more on a host than find a port or an index is not there. Of different profiles the one
+/// counts that lets the fewest start.
 void visit_crowd(auto& visit, Is<Scenario> auto& scenario) {
-  const std::uint32_t most = participants_of_a_host(scenario.dds);
+  const DdsProfile* dds = &scenario.dds;
+  const auto least = [](const DdsProfile& one) { return participants_of_a_host(one) - 1; };
+  for (const Participant& one : scenario.deployment.participants) {
+    if (one.dds && least(*one.dds) < least(*dds)) dds = &*one.dds;
+  }
+  const std::uint32_t most = participants_of_a_host(*dds);
   const std::uint32_t crowd = most == 0 ? 0 : scenario.deployment.most_on_a_host();
-  const bool is_said = scenario.dds.max_participants_per_host != 0;
+  const bool is_said = dds->max_participants_per_host != 0;
   visit.rule(
       crowd <= most, "deployment",
       fmt::format("at most {} participants on a host, where {} are: with {} the next process "
@@ -302,6 +313,7 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
   visit.section("vary", scenario.vary, "ranges around the scenario, for stormproof fuzz",
                 Presence::optional);
 
+  visit_mixed(visit, scenario);
   visit_life(visit, scenario);
   visit_types(visit, scenario);
   const DescriptorProfile& defaults = scenario.dds.descriptors;
