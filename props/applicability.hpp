@@ -51,4 +51,8 @@ struct Applicability {
 [[nodiscard]] Applicability applicability_of(std::string_view property,
                                              const model::Scenario& scenario);
 
+/// Why nobody can look for another DDS profile of the scenario: its participants do not have one.
+/// Empty if they do.
+[[nodiscard]] std::string_view why_profile_is_not_changed(const model::Scenario& scenario);
+
 }  // namespace stormproof::props

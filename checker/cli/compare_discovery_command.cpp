@@ -12,6 +12,7 @@
 #include "checker/experiments/compare/compare_report.hpp"
 #include "checker/experiments/compare/deployment_files.hpp"
 #include "model/config/scenario_file.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::cli {
 
@@ -55,6 +56,9 @@ std::optional<Complaint> complete(CompareArguments& arguments,
   compare::Request& request = arguments.request;
   const auto scenario = model::config::read_scenario(request.scenario, request.overrides, specs);
   if (!scenario) return scenario.error();
+  if (const auto why = props::why_profile_is_not_changed(*scenario); !why.empty()) {
+    return model::config::InputError{request.scenario, std::string{why}};
+  }
   const auto jitter = parse_start_jitter(arguments.start_jitter, *scenario);
   if (!jitter) return Complaint{jitter.error()};
   request.start_jitter = *jitter;

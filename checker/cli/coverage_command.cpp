@@ -88,6 +88,10 @@ void declare_model(Options& options, prediction::StudyRequest& request) {
       .required();
   options.text("--wireless", request.wireless, "Wireless profile", "PROFILE").required();
   options.overrides(request.overrides, "all scenarios");
+  options.texts("--runs", request.words,
+                "What processes run by a word of a row's profiles: a name or a map of keys "
+                "(repeatable)",
+                "WORD=PROFILE");
   options
       .number("--samples", request.predict.samples,
               "Schedules drawn for each configuration (default 12)", "N")

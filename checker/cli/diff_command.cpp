@@ -23,6 +23,7 @@ struct DiffArguments {
   std::optional<std::size_t> samples;
   std::optional<std::uint64_t> seed;
   bool no_check = false;
+  bool rolling = false;
   bool no_telling_apart = false;
   std::string directory;  ///< empty: the usual one
   std::size_t jobs = 0;
@@ -75,6 +76,7 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
   request.seed = arguments.seed;
   request.check_verdicts = !arguments.no_check;
   request.tell_apart = !arguments.no_telling_apart;
+  request.rolling = arguments.rolling;
   request.threads = arguments.jobs;
   request.on_progress = session.on_steps();
   request.interrupted = Session::interrupted;
@@ -129,6 +131,8 @@ void declare(Options& options, DiffArguments& arguments) {
   options.overrides(arguments.overrides, "both profiles");
   options.text("--over", arguments.grid,
                "Grid of deployments, or one scenario, to compare over (default: review)", "GRID");
+  options.flag("--rolling", arguments.rolling,
+               "Hosts get the candidate one by one: every fleet between, worst and best order");
   options.text("--scenario", arguments.scenario,
                "Scenario whose verdicts are compared (default: the least one of the grid)",
                "SCENARIO");

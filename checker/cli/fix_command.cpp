@@ -8,6 +8,7 @@
 #include "checker/cli/output_folder.hpp"
 #include "checker/experiments/fix/fix_report.hpp"
 #include "model/config/scenario_file.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::cli {
 
@@ -32,6 +33,9 @@ std::optional<Complaint> complete(FixArguments& arguments, const model::config::
   fix::Request& request = arguments.request;
   const auto scenario = model::config::read_scenario(request.scenario, request.overrides, specs);
   if (!scenario) return scenario.error();
+  if (const auto why = props::why_profile_is_not_changed(*scenario); !why.empty()) {
+    return model::config::InputError{request.scenario, std::string{why}};
+  }
   const auto jitter = parse_start_jitter(arguments.start_jitter, *scenario);
   if (!jitter) return Complaint{jitter.error()};
   request.start_jitter = *jitter;

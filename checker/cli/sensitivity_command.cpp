@@ -10,6 +10,7 @@
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/next_steps.hpp"
 #include "model/config/scenario_file.hpp"
+#include "props/applicability.hpp"
 #include "model/config/tree/quantities.hpp"
 
 namespace stormproof::cli {
@@ -75,6 +76,9 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   const auto scenario = model::config::read_scenario(arguments.scenario, arguments.overrides,
                                                      model::config::SpecPath::standard());
   if (!scenario) return scenario.error();
+  if (const auto why = props::why_profile_is_not_changed(*scenario); !why.empty()) {
+    return model::config::InputError{arguments.scenario, std::string{why}};
+  }
   auto described = describe(arguments, *scenario);
   if (!described) return Complaint{described.error()};
   Description& description = *described;

@@ -10,8 +10,8 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-Time clamp_period(const World& w, Time period) {
-  const model::AdaptiveProfile& a = w.sedp.adaptive;
+Time clamp_period(const World& w, Id i, Time period) {
+  const model::AdaptiveProfile& a = sedp(w, i).adaptive;
   return std::clamp(period, a.min_period.count(), a.max_period.count());
 }
 
@@ -43,32 +43,32 @@ void schedule_cycle(World& w, EventKind kind, Time at, Id i, int s) {
   schedule(w, at, EventClass::protocol, event);
 }
 
-void deactivate(World& w, Writer& wr) {
+void deactivate(World& w, Id i, Writer& wr) {
   wr.active = false;
-  wr.period = w.sedp.heartbeat_period.count();
+  wr.period = sedp(w, i).heartbeat_period.count();
 }
 
 // T* of a cycle with period T, `expected` readers and `answered` responses.
-Time next_period(const World& w, Time period, std::int64_t expected, std::int64_t answered) {
-  const std::int64_t numerator = w.sedp.adaptive.epsilon_numerator;
-  const std::int64_t denominator = w.sedp.adaptive.epsilon_denominator;
+Time next_period(const World& w, Id i, Time period, std::int64_t expected, std::int64_t answered) {
+  const std::int64_t numerator = sedp(w, i).adaptive.epsilon_numerator;
+  const std::int64_t denominator = sedp(w, i).adaptive.epsilon_denominator;
   // All of them have been forgotten since it began: the shortest period, and no shorter than T.
-  if (expected == 0) return std::max(period, clamp_period(w, 0));
+  if (expected == 0) return std::max(period, clamp_period(w, i, 0));
   Time next = 0;
   if (answered > 0 && denominator * answered >= numerator * expected) {
-    next = clamp_period(w, divide_half_up(period * expected, answered));
+    next = clamp_period(w, i, divide_half_up(period * expected, answered));
   } else if (numerator > 0) {
-    next = clamp_period(w, divide_half_up(period * denominator, numerator));
+    next = clamp_period(w, i, divide_half_up(period * denominator, numerator));
   } else {
-    next = w.sedp.adaptive.max_period.count();
+    next = sedp(w, i).adaptive.max_period.count();
   }
   return std::max(next, period);
 }
 
-std::vector<std::vector<Id>> make_batches(const World& w, const Writer& wr) {
+std::vector<std::vector<Id>> make_batches(const World& w, Id i, const Writer& wr) {
   const auto expected = static_cast<std::int64_t>(wr.cycle_readers.size());
   const auto answered = static_cast<std::int64_t>(wr.responded.size());
-  const model::AdaptiveProfile& a = w.sedp.adaptive;
+  const model::AdaptiveProfile& a = sedp(w, i).adaptive;
   const std::int64_t floor = ceil_div(expected * a.epsilon_numerator, a.epsilon_denominator);
   const auto size = static_cast<std::size_t>(std::max({std::int64_t{1}, answered, floor}));
   std::vector<std::vector<Id>> batches;
@@ -86,7 +86,7 @@ void activate_cycles(World& w, Id i, int s) {
   Writer& wr = writer(w, i, s);
   if (wr.active) return;
   wr.active = true;
-  wr.period = w.sedp.heartbeat_period.count();
+  wr.period = sedp(w, i).heartbeat_period.count();
   schedule_cycle(w, EventKind::cycle_start, w.now + wr.period, i, s);
 }
 
@@ -98,7 +98,7 @@ void cycle_start(World& w, Id i, int s, std::uint64_t token) {
   wr.cycle_existing = wr.existing;
   wr.responded.clear();
   if (wr.cycle_readers.empty()) {
-    deactivate(w, wr);
+    deactivate(w, i, wr);
     return;
   }
   wr.cycle_start = w.now;
@@ -114,9 +114,9 @@ void response(World& w, Id i, Id j, int s) {
   if (wr.responded.size() != wr.cycle_readers.size()) return;
   if (w.now >= wr.cycle_start + wr.period) return;
   ++wr.token;
-  wr.period = clamp_period(w, w.now - wr.cycle_start);
+  wr.period = clamp_period(w, i, w.now - wr.cycle_start);
   if (readers_behind(w, i, s).empty()) {
-    deactivate(w, wr);
+    deactivate(w, i, wr);
     return;
   }
   const Time at = std::max(w.now, wr.cycle_start + wr.period);
@@ -127,10 +127,10 @@ void cycle_end(World& w, Id i, int s, std::uint64_t token) {
   Writer& wr = writer(w, i, s);
   if (token != wr.token) return;
   ++wr.token;
-  const Time next = next_period(w, wr.period, static_cast<std::int64_t>(wr.cycle_readers.size()),
+  const Time next = next_period(w, i, wr.period, static_cast<std::int64_t>(wr.cycle_readers.size()),
                                 static_cast<std::int64_t>(wr.responded.size()));
   const Time extra = next - wr.period;
-  wr.batches = make_batches(w, wr);  // those that are late by a cycle are gone
+  wr.batches = make_batches(w, i, wr);  // those that are late by a cycle are gone
   const auto m = static_cast<std::int64_t>(wr.batches.size());
   for (std::int64_t k = 0; k < m; ++k) {
     schedule_cycle(w, EventKind::cycle_batch, w.now + extra * k / m, i, s);

@@ -113,7 +113,7 @@ void arrive_on_cable(World& w, const Packet& packet) {
 
 void emit(World& w, Packet packet) {
   packet.id = w.packets.size();
-  packet.payload += w.scenario.dds.version.statistics_bytes.count();
+  packet.payload += profile(w, packet.source).version.statistics_bytes.count();
   packet.emitted = w.now;
   packet.fragments = cut_into_fragments(w.scenario.wireless, packet.payload);
   const bool on_channel = packet.to_nobody || !receivers(w, packet, false).empty();

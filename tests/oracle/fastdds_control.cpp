@@ -8,9 +8,9 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-model::Nanoseconds reply_delay(const World& w, int topic) {
+model::Nanoseconds reply_delay(const World& w, Id j, int topic) {
   if (is_builtin(topic) && !w.makes(Mistake::builtin_replies_like_user))
-    return w.scenario.dds.version.builtin_response_delay;
+    return profile(w, j).version.builtin_response_delay;
   return model::Nanoseconds{5'000'000};
 }
 
@@ -48,7 +48,7 @@ void open_liveliness(World& w, Id i, Id j) {
 }
 
 void open_lookups(World& w, Id i, Id j) {
-  if (w.scenario.dds.version.type_lookup == model::Whether::no) return;
+  if (!asks_for_types_of(w, i, j)) return;
   if (!cross_host(w, i, j) && w.makes(Mistake::no_lookups_on_host)) return;
   const bool writers_first = w.makes(Mistake::lookup_writers_first);
   for (const bool of_writers : {writers_first, !writers_first}) {
@@ -90,14 +90,14 @@ void open_control_writer(World& w, Id i, Id j, int topic) {
   if (is_lookup(topic)) {
     Writer& wr = writer(w, i, topic);
     wr.readers.push_back(j);
-    wr.budget = w.sedp.piggyback_threshold_bytes.count();
+    wr.budget = sedp(w, i).piggyback_threshold_bytes.count();
   }
   send(w, PacketKind::control_heartbeat, i, j, topic, false);
 }
 
 void open_control_reader(World& w, Id i, Id j, int topic) {
   control(w, i, j, topic).reader_open = true;
-  const model::Nanoseconds delay = w.sedp.initial_acknack_delay;
+  const model::Nanoseconds delay = sedp(w, j).initial_acknack_delay;
   if (delay.count() == 0) return;
   Event event = control_event(EventKind::control_initial, j, i, topic);
   event.number = delay.count();
@@ -144,7 +144,7 @@ void receive_control_heartbeat(World& w, const Packet& packet) {
   if (!w.makes(Mistake::heartbeats_give_nothing)) c.got = std::max(c.got, packet.sample_count);
   if (c.reply_pending && !w.makes(Mistake::control_reply_doubled)) return;
   c.reply_pending = true;
-  schedule_after(w, reply_delay(w, packet.topic),
+  schedule_after(w, reply_delay(w, j, packet.topic),
                  control_event(EventKind::control_reply, j, i, packet.topic));
 }
 
@@ -159,7 +159,7 @@ void receive_control_acknack(World& w, const Packet& packet) {
   }
   send(w, PacketKind::control_heartbeat, i, j, packet.topic, false);
   if (!is_lookup(packet.topic)) return;
-  writer(w, i, packet.topic).budget = w.sedp.piggyback_threshold_bytes.count();
+  writer(w, i, packet.topic).budget = sedp(w, i).piggyback_threshold_bytes.count();
   if (!w.makes(Mistake::initial_arms_no_lookups)) arm_lookups(w, i, packet.topic);
 }
 
@@ -172,7 +172,7 @@ void control_initial(World& w, Id j, Id i, int topic, Time delay) {
   if (control(w, i, j, topic).heartbeat_seen) return;
   send(w, PacketKind::control_acknack, j, i, topic, true);
   Event again = control_event(EventKind::control_initial, j, i, topic);
-  const bool stays = w.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+  const bool stays = sedp(w, j).initial_acknack_interval == model::InitialAckNackInterval::constant;
   again.number = stays && !w.makes(Mistake::control_always_doubled) ? delay : 2 * delay;
   schedule_after(w, model::Nanoseconds{again.number}, again);
 }

@@ -42,11 +42,11 @@ std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, 
   return order;
 }
 
-std::int64_t submessage_bytes(const World& w, int s, Id d) {
-  const std::vector<std::int64_t> bytes = descriptor_bytes(has_sizes_of_3(w), s);
+std::int64_t submessage_bytes(const World& w, Id i, int s, Id d) {
+  const std::vector<std::int64_t> bytes = descriptor_bytes(has_sizes_of_3(w, i), s);
   std::int64_t inline_qos = 0;
-  if (w.server) inline_qos = has_sizes_of_3(w) ? 60 : 32;
-  std::int64_t about_type = w.scenario.dds.version.descriptor_extra_bytes.count();
+  if (w.server) inline_qos = has_sizes_of_3(w, i) ? 60 : 32;
+  std::int64_t about_type = profile(w, i).version.descriptor_extra_bytes.count();
   if (about_type == 0 && with_types(w) && !w.makes(Mistake::types_without_bytes)) about_type = 188;
   return inline_qos + about_type + bytes.at(std::min<std::size_t>(d, bytes.size() - 1));
 }

@@ -114,7 +114,7 @@ void open_before(World& w, Id i, Id j) {
       if (!exists) break;
       open(topic);
     }
-    if (w.scenario.dds.version.type_lookup == model::Whether::no) continue;
+    if (!asks_for_types_of(w, i, j)) continue;
     for (const int topic : {questions, answers}) open(topic);
   }
 }
@@ -219,8 +219,8 @@ void participant_return(World& w, Id i) {
   }
   for (int s = 0; s < 2; ++s) {
     Writer fresh;
-    fresh.budget = w.sedp.piggyback_threshold_bytes.count();
-    fresh.period = w.sedp.heartbeat_period.count();
+    fresh.budget = sedp(w, i).piggyback_threshold_bytes.count();
+    fresh.period = sedp(w, i).heartbeat_period.count();
     if (w.makes(Mistake::returns_with_memory)) fresh.readers = writer(w, i, s).readers;
     if (w.makes(Mistake::returns_with_endpoints)) fresh.existing = writer(w, i, s).existing;
     writer(w, i, s) = fresh;

@@ -122,20 +122,25 @@ void ask(World& w, Id j, Id i, int s, const std::vector<std::string>& types) {
 
 bool with_types(const World& w) { return w.scenario.deployment.types.has_value(); }
 
-bool asks_for_types(const World& w) {
-  return with_types(w) && w.scenario.dds.version.type_lookup == model::Whether::yes;
+bool asks_for_types_of(const World& w, Id i, Id j) {
+  return profile(w, i).version.type_lookup == model::Whether::yes &&
+         profile(w, j).version.type_lookup == model::Whether::yes;
+}
+
+bool asks_for_types(const World& w, Id i, Id j) {
+  return with_types(w) && asks_for_types_of(w, i, j);
 }
 
 std::int64_t sample_bytes(const World& w, const Sample& sample) {
   const auto others = static_cast<std::int64_t>(sample.types.size()) - 1;
   if (sample.is_question) return (sample.is_about_dependencies ? 156 : 148) + 16 * others;
   if (sample.is_about_dependencies) return 96;
-  const std::int64_t object = w.scenario.dds.version.type_object_bytes.count();
+  const std::int64_t object = profile(w, sample.from).version.type_object_bytes.count();
   return object > 96 ? object + others * (object - 96) : object;
 }
 
 void hand_over(World& w, Id i, Id j, int s, Id d) {
-  if (!asks_for_types(w) || w.makes(Mistake::nobody_waits)) return note_notified(w, i, j, s, d);
+  if (!asks_for_types(w, i, j) || w.makes(Mistake::nobody_waits)) return note_notified(w, i, j, s, d);
   if (!cross_host(w, i, j) && w.makes(Mistake::no_questions_on_host)) return;
   const std::string type = type_of(w, i, s, d);
   if (knows(w, j, type)) return note_notified(w, i, j, s, d);
@@ -151,7 +156,7 @@ void hand_over(World& w, Id i, Id j, int s, Id d) {
 }
 
 void ask_for_all(World& w, Id j, Id i) {
-  if (!asks_for_types(w)) return;
+  if (!asks_for_types(w, i, j)) return;
   if (w.scenario.dds.version.typelookup_unit != model::LookupUnit::participant) return;
   std::set<Id>& asked = w.participants.at(j).asked;
   if (asked.contains(i) && !w.makes(Mistake::asks_without_answer)) return;
@@ -182,11 +187,11 @@ void receive_samples(World& w, const Packet& packet) {
 
 void arm_lookups(World& w, Id i, int topic) {
   Writer& wr = writer(w, i, topic);
-  if (!asks_for_types(w) || wr.expiry_pending) return;
+  if (!asks_for_types(w, i, i) || wr.expiry_pending) return;
   wr.expiry_pending = true;
   Event event = make_event(EventKind::lookup_expiry, i, i, 0);
   event.topic = topic;
-  schedule_after(w, w.scenario.dds.version.typelookup_heartbeat_period, event);
+  schedule_after(w, profile(w, i).version.typelookup_heartbeat_period, event);
 }
 
 void lookup_expiry(World& w, Id i, int topic) {
@@ -202,7 +207,7 @@ void lookup_expiry(World& w, Id i, int topic) {
     if (w.makes(Mistake::expiry_of_lookups_to_lacking) && !lacks(j)) continue;
     send_control(w, PacketKind::control_heartbeat, i, j, topic, false, payload);
   }
-  wr.budget = w.sedp.piggyback_threshold_bytes.count();
+  wr.budget = sedp(w, i).piggyback_threshold_bytes.count();
   arm_lookups(w, i, topic);
 }
 

@@ -39,17 +39,16 @@ void flush(World& w, Sending& sending) {
   if (is_empty && !message.announced.has_value()) return;
   std::int64_t sent = message.bytes;
   if (!w.makes(Mistake::statistics_uncharged)) {
-    sent += w.scenario.dds.version.statistics_bytes.count();
+    sent += profile(w, sending.i).version.statistics_bytes.count();
   }
   if (w.makes(Mistake::charge_per_packet)) sent *= std::int64_t(message.destinations.size());
   if (sending.async) {
     Participant& p = w.participants.at(sending.i);
     p.sent_bytes += sent;
     p.group_bytes += sent;
-    if (p.group_bytes > w.sedp.piggyback_threshold_bytes.count()) {
-      p.group_bytes -= w.makes(Mistake::group_starts_anew)
-                           ? p.group_bytes
-                           : w.sedp.piggyback_threshold_bytes.count();
+    const std::int64_t threshold = sedp(w, sending.i).piggyback_threshold_bytes.count();
+    if (p.group_bytes > threshold) {
+      p.group_bytes -= w.makes(Mistake::group_starts_anew) ? p.group_bytes : threshold;
       ++p.group_number;
     }
   }
@@ -79,13 +78,13 @@ void flush(World& w, Sending& sending) {
   }
 }
 
-bool joins(const World& w, const Message& message, int s, Id d,
+bool joins(const World& w, Id i, const Message& message, int s, Id d,
            const std::vector<Id>& destinations) {
   if (message.stream != s || message.destinations != destinations) return false;
   const std::vector<Id>& carried = message.descriptors;
   if (std::find(carried.begin(), carried.end(), d) != carried.end()) return false;
-  return message.bytes + timestamp_bytes + submessage_bytes(w, s, d) <=
-         w.sedp.grouping_limit_bytes.count();
+  return message.bytes + timestamp_bytes + submessage_bytes(w, i, s, d) <=
+         sedp(w, i).grouping_limit_bytes.count();
 }
 
 void count_data(World& w, Message& message, Id i, Id j, int s, Id d) {
@@ -107,7 +106,7 @@ void suppress(World& w, Id i, Id j, int s, Id d) {
   r.state.at(d) = DescriptorState::suppressed;
   if (!r.suppression_pending || w.makes(Mistake::suppression_per_descriptor)) {
     r.suppression_pending = true;
-    schedule_after(w, w.sedp.nack_suppression_duration,
+    schedule_after(w, sedp(w, i).nack_suppression_duration,
                    make_event(EventKind::suppression_end, i, j, s));
   }
 }
@@ -115,7 +114,7 @@ void suppress(World& w, Id i, Id j, int s, Id d) {
 // What the DATA just added to the open message takes from the writer's budget.
 std::int64_t charge(const World& w, const Sending& sending, std::int64_t submessage) {
   const std::int64_t alone = message_header + timestamp_bytes + submessage;
-  switch (w.sedp.piggyback) {
+  switch (sedp(w, sending.i).piggyback) {
     case model::Piggyback::cumulative:
       if (!sending.async && !w.makes(Mistake::sync_charges_message)) return alone;
       return w.participants.at(sending.i).sent_bytes +
@@ -132,14 +131,14 @@ std::int64_t charge(const World& w, const Sending& sending, std::int64_t submess
 // Whether a HEARTBEAT has to ride with the DATA just added.
 bool rides(World& w, const Sending& sending, int s, std::int64_t submessage) {
   Writer& wr = writer(w, sending.i, s);
-  if (w.sedp.piggyback == model::Piggyback::group) {
+  if (sedp(w, sending.i).piggyback == model::Piggyback::group) {
     const bool in_group = sending.async || w.makes(Mistake::group_of_creations);
     const std::int64_t number = in_group ? w.participants.at(sending.i).group_number : 0;
     if (number == wr.group_number) return false;
     if (!w.makes(Mistake::group_goes_on)) wr.group_number = number;
     return true;
   }
-  if (w.sedp.piggyback == model::Piggyback::off) return false;
+  if (sedp(w, sending.i).piggyback == model::Piggyback::off) return false;
   wr.budget -= charge(w, sending, submessage);
   return wr.budget < 0;
 }
@@ -161,13 +160,13 @@ void piggyback(World& w, Sending& sending, int s) {
     if (!cross_host(w, sending.i, j)) continue;
     ++(is_lookup(s) ? w.outcome.user_control : w.outcome.heartbeat);
   }
-  wr.budget = w.sedp.piggyback_threshold_bytes.count();
+  wr.budget = sedp(w, sending.i).piggyback_threshold_bytes.count();
   ++w.outcome.piggybacks;
 }
 
 // Sends a message that takes no more DATA, then charges the one that was added last.
 void charge_added(World& w, Sending& sending, int s, std::int64_t submessage) {
-  const Id most = w.scenario.dds.version.max_data_per_message;
+  const Id most = profile(w, sending.i).version.max_data_per_message;
   const std::size_t data = sending.open->descriptors.size() + sending.open->samples.size();
   const bool is_full = most > 0 && data >= most;
   if (is_full && !w.makes(Mistake::full_message_charged)) flush(w, sending);
@@ -176,16 +175,16 @@ void charge_added(World& w, Sending& sending, int s, std::int64_t submessage) {
 }
 
 void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
-  if (sending.open.has_value() && !joins(w, *sending.open, s, d, destinations)) flush(w, sending);
+  if (sending.open.has_value() && !joins(w, sending.i, *sending.open, s, d, destinations)) flush(w, sending);
   if (!sending.open.has_value()) open_message(w, sending, s, destinations);
   sending.open->descriptors.push_back(d);
-  sending.open->bytes += timestamp_bytes + submessage_bytes(w, s, d);
+  sending.open->bytes += timestamp_bytes + submessage_bytes(w, sending.i, s, d);
   for (const Id j : destinations) {
     suppress(w, sending.i, j, s, d);
     count_data(w, *sending.open, sending.i, j, s, d);
   }
   arm(w, sending.i, s);
-  charge_added(w, sending, s, submessage_bytes(w, s, d));
+  charge_added(w, sending, s, submessage_bytes(w, sending.i, s, d));
 }
 
 /// A sample goes to all readers, though one is meant; unless it is filtered.
@@ -195,13 +194,13 @@ void deliver(World& w, Sending& sending, Sample sample) {
   const std::int64_t bytes = timestamp_bytes + sample_bytes(w, sample);
   std::vector<Id> destinations = wr.readers;
   using enum model::LookupFilter;
-  const model::LookupFilter filter = w.scenario.dds.version.typelookup_filter;
+  const model::LookupFilter filter = profile(w, sending.i).version.typelookup_filter;
   const bool filters_questions = filter == all || w.makes(Mistake::questions_filtered);
   const bool to_one = filter != none && (filters_questions || !sample.is_question);
   if (to_one || w.makes(Mistake::samples_to_addressee)) destinations = {sample.to};
   const std::optional<Message>& open = sending.open;
   if (open && (open->stream != topic || open->destinations != destinations ||
-               open->bytes + bytes > w.sedp.grouping_limit_bytes.count())) {
+               open->bytes + bytes > sedp(w, sending.i).grouping_limit_bytes.count())) {
     flush(w, sending);
   }
   if (!sending.open) open_message(w, sending, topic, destinations);

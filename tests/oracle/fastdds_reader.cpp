@@ -52,7 +52,7 @@ void receive_sedp(World& w, Id j, const Packet& packet) {
   r.announced = std::max(r.announced, *packet.announced);
   if (r.acknack_pending && !w.makes(Mistake::acknack_per_heartbeat)) return;
   r.acknack_pending = true;
-  schedule_after(w, w.sedp.heartbeat_response_delay,
+  schedule_after(w, sedp(w, j).heartbeat_response_delay,
                  make_event(EventKind::acknack_generation, j, i, s));
 }
 
@@ -131,7 +131,7 @@ void initial_acknack(World& w, Id j, Id i, int s, Time delay) {
   packet.initial = true;
   send_acknack(w, packet);
   Event again = make_event(EventKind::initial_acknack, j, i, s);
-  const bool stays = w.sedp.initial_acknack_interval == model::InitialAckNackInterval::constant;
+  const bool stays = sedp(w, j).initial_acknack_interval == model::InitialAckNackInterval::constant;
   again.number = stays && !w.makes(Mistake::initial_always_doubled) ? delay : 2 * delay;
   schedule_after(w, model::Nanoseconds{again.number}, again);
 }

@@ -6,13 +6,13 @@ namespace stormproof::oracle::fastdds {
 
 namespace {
 
-std::int64_t spdp_payload(const World& w) { return has_sizes_of_3(w) ? 484 : 252; }
+std::int64_t spdp_payload(const World& w, Id i) { return has_sizes_of_3(w, i) ? 484 : 252; }
 
 void send_multicast(World& w, Id i) {
   Packet packet;
   packet.kind = PacketKind::spdp;
   packet.source = i;
-  packet.payload = spdp_payload(w);
+  packet.payload = spdp_payload(w, i);
   ++w.outcome.spdp_multicast;
   emit(w, packet);
 }
@@ -22,7 +22,7 @@ void send_copy(World& w, Id i, Id j) {
   packet.kind = PacketKind::spdp;
   packet.source = i;
   packet.destination = j;
-  packet.payload = spdp_payload(w);
+  packet.payload = spdp_payload(w, i);
   if (cross_host(w, i, j)) ++w.outcome.spdp_unicast;
   emit(w, packet);
 }
@@ -32,7 +32,7 @@ void send_to_ports(World& w, Id i) {
   std::map<std::uint32_t, std::vector<Id>> hosts;
   for (Id j = 0; j < w.participants.size(); ++j) hosts[w.participants.at(j).host].push_back(j);
   for (const auto& [host, there] : hosts) {
-    for (std::uint32_t port = 0; port < w.scenario.dds.peer_ports; ++port) {
+    for (std::uint32_t port = 0; port < profile(w, i).peer_ports; ++port) {
       if (port < there.size()) {
         if (there.at(port) != i) send_copy(w, i, there.at(port));
       } else if (host != w.participants.at(i).host) {
@@ -41,7 +41,7 @@ void send_to_ports(World& w, Id i) {
         packet.source = i;
         packet.destination = there.front();  // for its host
         packet.to_nobody = true;
-        packet.payload = spdp_payload(w);
+        packet.payload = spdp_payload(w, i);
         ++w.outcome.spdp_unicast;
         emit(w, packet);
       }
@@ -64,7 +64,7 @@ void send_spdp(World& w, Id i) {
 }
 
 void resend(World& w, Id j, Id newcomer) {
-  switch (w.scenario.dds.spdp.resend) {
+  switch (profile(w, j).spdp.resend) {
     case model::SpdpResend::all_known:
       send_spdp(w, j);
       break;
@@ -84,7 +84,7 @@ void resend(World& w, Id j, Id newcomer) {
 
 void open_reader(World& w, Id j, Id i, int s) {
   relation(w, i, j, s).reader_open = true;
-  const model::Nanoseconds delay = w.sedp.initial_acknack_delay;
+  const model::Nanoseconds delay = sedp(w, j).initial_acknack_delay;
   if (delay.count() == 0) return;
   Event event = make_event(EventKind::initial_acknack, j, i, s);
   event.number = delay.count();
@@ -92,7 +92,7 @@ void open_reader(World& w, Id j, Id i, int s) {
 }
 
 void announce(World& w, Id i, std::int64_t k) {
-  const model::SpdpProfile& spdp = w.scenario.dds.spdp;
+  const model::SpdpProfile& spdp = profile(w, i).spdp;
   if (w.server) {
     client_announces(w, i, k);
   } else {
@@ -110,7 +110,7 @@ void receive_spdp(World& w, Id j, Id i) {
   known.insert(i);
   resend(w, j, i);
   const bool builtin_first =
-      w.scenario.dds.version.match_order == model::MatchOrder::builtin_first &&
+      profile(w, j).version.match_order == model::MatchOrder::builtin_first &&
       !w.makes(Mistake::endpoints_always_first);
   if (builtin_first) open_builtin(w, i, j);
   for (int s = 0; s < 2; ++s) {

@@ -49,8 +49,8 @@ World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi,
   create_relations(*this);
   for (Id i = 0; i < participants.size(); ++i) {
     for (const int stream : {pub, sub, questions, answers}) {
-      writers[{i, stream}].budget = sedp.piggyback_threshold_bytes.count();
-      writers[{i, stream}].period = sedp.heartbeat_period.count();
+      writers[{i, stream}].budget = profile(*this, i).sedp.piggyback_threshold_bytes.count();
+      writers[{i, stream}].period = profile(*this, i).sedp.heartbeat_period.count();
     }
   }
   if (s.wireless.loss) random.seed(s.wireless.loss->seed);
@@ -83,8 +83,13 @@ bool cross_host(const World& w, Id i, Id j) {
 
 bool started(const World& w, Id i) { return w.now >= w.participants.at(i).start; }
 
-bool adaptive(const World& w) {
-  return w.sedp.heartbeat_policy == model::HeartbeatPolicy::adaptive;
+bool adaptive(const World& w, Id i) {
+  return sedp(w, i).heartbeat_policy == model::HeartbeatPolicy::adaptive;
+}
+
+const model::DdsProfile& profile(const World& w, Id i) {
+  const auto& all = w.scenario.deployment.participants;
+  return i < all.size() && all[i].dds ? *all[i].dds : w.scenario.dds;
 }
 
 Relation& relation(World& w, Id i, Id j, int s) { return w.relations.at({i, j, s}); }

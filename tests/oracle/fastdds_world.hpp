@@ -364,7 +364,7 @@ struct World {
   [[nodiscard]] bool makes(ServerMistake m) const { return server_mistake == m; }
 
   const model::Scenario& scenario;
-  const model::SedpProfile& sedp;
+  const model::SedpProfile& sedp;  // of all, with a Discovery Server
   const FastddsMistake mistake;
   const WifiMistake wifi_mistake;
   const ServerMistake server_mistake;
@@ -406,7 +406,12 @@ void schedule(World& w, Time at, EventClass event_class, const Event& event);
 void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
 [[nodiscard]] bool cross_host(const World& w, Id i, Id j);
 [[nodiscard]] bool started(const World& w, Id i);
-[[nodiscard]] bool adaptive(const World& w);
+[[nodiscard]] bool adaptive(const World& w, Id i);
+// What participant i runs, and what it says of the streams.
+[[nodiscard]] const model::DdsProfile& profile(const World& w, Id i);
+[[nodiscard]] inline const model::SedpProfile& sedp(const World& w, Id i) {
+  return profile(w, i).sedp;
+}
 [[nodiscard]] Relation& relation(World& w, Id i, Id j, int s);
 [[nodiscard]] Writer& writer(World& w, Id i, int s);
 
@@ -417,10 +422,10 @@ void schedule_after(World& w, model::Nanoseconds delay, const Event& event);
 // fastdds_descriptors.cpp
 [[nodiscard]] Id descriptor_count(const model::Scenario& scenario, Id i, int s);
 [[nodiscard]] std::vector<std::pair<int, Id>> creation_order(const model::Scenario& scenario, Id i);
-[[nodiscard]] inline bool has_sizes_of_3(const World& w) {
-  return w.scenario.dds.version.sizes != model::SizesSince::v2_6;
+[[nodiscard]] inline bool has_sizes_of_3(const World& w, Id i) {
+  return profile(w, i).version.sizes != model::SizesSince::v2_6;
 }
-[[nodiscard]] std::int64_t submessage_bytes(const World& w, int s, Id d);
+[[nodiscard]] std::int64_t submessage_bytes(const World& w, Id i, int s, Id d);
 constexpr int no_topic = -2;
 constexpr int liveliness = -1;
 constexpr int questions = -3;  // of types
@@ -523,7 +528,9 @@ void async_run(World& w, Id i);
 
 // fastdds_lookups.cpp
 [[nodiscard]] bool with_types(const World& w);
-[[nodiscard]] bool asks_for_types(const World& w);
+// Whether both have endpoints that ask for types; whether there is something to ask for, too.
+[[nodiscard]] bool asks_for_types_of(const World& w, Id i, Id j);
+[[nodiscard]] bool asks_for_types(const World& w, Id i, Id j);
 [[nodiscard]] std::int64_t sample_bytes(const World& w, const Sample& sample);
 void hand_over(World& w, Id i, Id j, int s, Id d);
 void ask_for_all(World& w, Id j, Id i);

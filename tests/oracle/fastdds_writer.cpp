@@ -65,7 +65,7 @@ void heartbeat(World& w, Id i, Id j, int s, std::int64_t payload) {
   if (w.makes(Mistake::announces_all)) packet.announced = descriptor_count(w.scenario, i, s);
   if (cross_host(w, i, j)) ++w.outcome.heartbeat;
   emit(w, packet);
-  writer(w, i, s).budget = w.sedp.piggyback_threshold_bytes.count();
+  writer(w, i, s).budget = sedp(w, i).piggyback_threshold_bytes.count();
 }
 
 void open_writer(World& w, Id i, Id j, int s) {
@@ -76,14 +76,14 @@ void open_writer(World& w, Id i, Id j, int s) {
 }
 
 void arm(World& w, Id i, int s) {
-  if (adaptive(w)) {
+  if (adaptive(w, i)) {
     activate_cycles(w, i, s);
     return;
   }
   Writer& wr = writer(w, i, s);
   if (wr.expiry_pending) return;
   wr.expiry_pending = true;
-  schedule_after(w, w.sedp.heartbeat_period, make_event(EventKind::heartbeat_expiry, i, i, s));
+  schedule_after(w, sedp(w, i).heartbeat_period, make_event(EventKind::heartbeat_expiry, i, i, s));
 }
 
 void heartbeat_expiry(World& w, Id i, int s) {
@@ -112,14 +112,14 @@ void receive_acknack(World& w, const Packet& packet) {
   if (take_bitmap(w, r, packet, wr.existing)) {
     if (!wr.response_pending || w.makes(Mistake::response_per_request)) {
       wr.response_pending = true;
-      schedule_after(w, w.sedp.nack_response_delay, make_event(EventKind::nack_response, i, i, s));
+      schedule_after(w, sedp(w, i).nack_response_delay, make_event(EventKind::nack_response, i, i, s));
     }
   } else if (!packet.bitmap.empty() && !w.makes(Mistake::vain_request_does_not_arm)) {
     arm(w, i, s);
   }
   const bool recent = packet.base >= wr.cycle_existing;
   const bool clean = packet.bitmap.empty() && (recent || w.makes(Mistake::response_with_old_base));
-  if (adaptive(w) && clean) response(w, i, j, s);
+  if (adaptive(w, i) && clean) response(w, i, j, s);
 }
 
 void nack_response(World& w, Id i, int s) {

@@ -80,7 +80,7 @@ void gap_to(World& w, int stream, Id j, const std::set<std::int64_t>& numbers, b
 
 std::int64_t payload_of(const World& w, const Item& item) {
   if (item.stream != participants_stream) {
-    return around_descriptor + submessage_bytes(w, item.stream, item.descriptor);
+    return around_descriptor + submessage_bytes(w, item.participant, item.stream, item.descriptor);
   }
   const auto version = static_cast<std::size_t>(w.scenario.dds.version.sizes);
   return item.participant == w.server_id() ? own_announcement_payloads[version]

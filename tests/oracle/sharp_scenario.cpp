@@ -146,6 +146,28 @@ Scenario random_lookup_scenario(std::uint64_t seed) {
   return scenario;
 }
 
+Scenario random_mixed_scenario(std::uint64_t seed) {
+  Scenario scenario = random_fastdds_scenario(seed);
+  Dice dice{seed + 77};
+  if (seed % 4 == 0) scenario = random_lookup_scenario(seed);
+  if (seed % 4 == 1) props::draw_discovery(seed, model::Discovery::static_peers, scenario);
+  if (seed % 4 == 3) props::draw_version(dice, scenario.dds);
+  std::vector<model::DdsProfile> others;
+  for (std::uint32_t k = 0; k < dice.count(1, 3); ++k) {
+    model::DdsProfile& other = others.emplace_back(random_fastdds_scenario(dice.count(0, 999)).dds);
+    if (dice.chance(80)) props::draw_version(dice, other);
+    other.discovery = scenario.dds.discovery;
+    other.peer_ports = dice.count(1, 6);
+    other.version.typelookup_unit = scenario.dds.version.typelookup_unit;
+  }
+  for (model::Participant& participant : scenario.deployment.participants) {
+    if (!dice.chance(60)) continue;
+    const auto most = static_cast<std::uint32_t>(others.size()) - 1;
+    participant.dds = others[dice.count(0, most)];
+  }
+  return scenario;
+}
+
 Scenario varied_version_scenario(std::uint64_t seed) {
   return varied(random_version_scenario(seed), seed);
 }

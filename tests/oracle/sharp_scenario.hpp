@@ -23,6 +23,8 @@ namespace stormproof::oracle {
 [[nodiscard]] model::Scenario varied_version_scenario(std::uint64_t seed);
 /// One without a server, whose endpoints have types.
 [[nodiscard]] model::Scenario random_lookup_scenario(std::uint64_t seed);
+/// One of several profiles of Fast DDS, without a server; every fourth one with types.
+[[nodiscard]] model::Scenario random_mixed_scenario(std::uint64_t seed);
 /// One of clients or super clients of a Discovery Server.
 [[nodiscard]] model::Scenario varied_server_scenario(std::uint64_t seed);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);

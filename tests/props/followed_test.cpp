@@ -39,6 +39,18 @@ std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
   return run.digest;
 }
 
+/// Rules that are followed beside a run ask the participants that the run asks.
+TEST(FollowedMixes, AreWhatTheRulesSay) {
+  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+    const Scenario scenario = oracle::random_mixed_scenario(seed);
+    const auto monitor = follow(scenario);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+    break;
+  }
+}
+
 class Followed : public testing::TestWithParam<ImplementationKind> {};
 
 TEST_P(Followed, CorrectRunsAreWhatTheRulesSay) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/coverage/process_profiles.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
 #include "model/config/scenario_file.hpp"
@@ -120,12 +121,13 @@ model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
 
 std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel,
-                         std::optional<std::uint32_t>, Spread, std::optional<std::uint32_t>, bool>;
+                         std::optional<std::uint32_t>, Spread, std::optional<std::uint32_t>, bool,
+                         std::vector<std::string>>;
   std::map<Key, Configuration> found;
   for (const Observation& run : rows) {
     Configuration& c =
         found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel,
-                  run.peer_range, run.spread, run.unknown_types, run.looks_up_types}];
+                  run.peer_range, run.spread, run.unknown_types, run.looks_up_types, run.profiles}];
     c.set = run.set;
     c.hosts = run.hosts;
     c.participants_per_host = run.participants_per_host;
@@ -135,6 +137,7 @@ std::vector<Configuration> configurations(const std::vector<Observation>& rows) 
     c.unknown_types = run.unknown_types;
     c.looks_up_types = run.looks_up_types;
     c.spread = run.spread;
+    c.profiles = run.profiles;
     c.runs.push_back(run);
   }
   std::vector<Configuration> result;
@@ -219,6 +222,7 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   if (const auto limit = configuration.limit()) {
     scenario->time_limit = nanoseconds(*limit);
   }
+  if (auto error = give_profiles(configuration, options, *scenario)) return *std::move(error);
   if (options.channel == ChannelSource::profile) return scenario;
   return with_channel(std::move(*scenario), configuration.channel);
 }

@@ -23,6 +23,7 @@ struct Configuration {
   std::optional<std::uint32_t> unknown_types = {};  ///< as in `Observation`
   bool looks_up_types = true;
   Spread spread = {};
+  std::vector<std::string> profiles;  ///< as in `Observation`
   std::vector<Observation> runs;
 
   [[nodiscard]] bool same_deployment(const Configuration& other) const {
@@ -56,6 +57,7 @@ struct ScenarioOptions {
   std::string wireless;                ///< name or path of a profile
   std::vector<std::string> overrides;  ///< key.path=value
   ChannelSource channel = ChannelSource::profile;
+  std::vector<std::string> words;  ///< "WORD=PROFILE": what processes run by the words of rows
 };
 
 /// When participants start in samples of the scenario of a configuration: as in the measured runs,

@@ -206,6 +206,22 @@ void read_types(Row& row, Observation& run) {
   run.looks_up_types = row.text("type_propagation").value_or("enabled") == "enabled";
 }
 
+/// What each process runs, by "HOST/ID".
+void read_profiles(const Json& json, Row& row, Observation& run) {
+  if (!row.has("profiles")) return;
+  constexpr const char* expected =
+      "an object with what each process runs, by its host and id: {\"0/0\": \"fastdds-3.6\", …}";
+  const Json& profiles = json["profiles"];
+  if (!profiles.is_object()) return row.fail("profiles", expected);
+  for (std::uint32_t host = 0; host < run.hosts; ++host) {
+    for (std::uint32_t id = 0; id < run.participants_per_host; ++id) {
+      const auto word = profiles.find(fmt::format("{}/{}", host, id));
+      if (word == profiles.end() || !word->is_string()) return row.fail("profiles", expected);
+      run.profiles.push_back(word->get<std::string>());
+    }
+  }
+}
+
 bool selected(const Json& json, const std::vector<std::string>& select) {
   for (const std::string& wanted : select) {
     const std::size_t equals = wanted.find('=');
@@ -233,6 +249,7 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.endpoints_done = row.range("ep_done_ms");
   read_spread(row, run.spread);
   read_processes(json, row, run);
+  read_profiles(json, row, run);
   return run;
 }
 

@@ -77,6 +77,8 @@ struct Observation {
   std::optional<Range> create;          ///< create_ms: creation of the participant begins
   std::optional<Range> endpoints_done;  ///< ep_done_ms: all endpoints of a participant exist
   std::vector<Times> participants;      ///< of procs, host 0's first; empty unless all have both
+  /// What each participant runs, in the same order; empty: all run the same.
+  std::vector<std::string> profiles;
 };
 
 enum class CompletionTime : std::uint8_t { app, strict };

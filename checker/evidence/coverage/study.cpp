@@ -131,7 +131,8 @@ Result<Plan> plan(const std::vector<Observation>& rows,
   const bool foreign = !request.baseline.empty() && baseline_rows.empty();
   const auto add = [&](const std::string& name, const std::vector<Observation>& measured,
                        bool is_baseline) {
-    ScenarioOptions options{name, request.wireless, request.overrides, request.channel};
+    ScenarioOptions options{name, request.wireless, request.overrides, request.channel,
+                            request.words};
     if (!is_baseline) {
       options.overrides.insert(options.overrides.end(), request.change.begin(),
                                request.change.end());

@@ -9,6 +9,7 @@
 
 #include "checker/experiments/diff/blame.hpp"
 #include "checker/experiments/diff/costs.hpp"
+#include "checker/experiments/diff/rolling.hpp"
 #include "checker/experiments/diff/summary.hpp"
 #include "checker/experiments/diff/telling_apart.hpp"
 #include "checker/experiments/diff/verdicts.hpp"
@@ -21,8 +22,8 @@ namespace {
 
 class DiffStudy {
  public:
-  DiffStudy(const DiffRequest& request, const ReviewedGrid& grid, const ReviewedPoint& checked)
-      : request_{request}, grid_{grid}, checked_{checked} {
+  DiffStudy(const DiffRequest& request, const RollingGrid& rolling, const ReviewedPoint& checked)
+      : request_{request}, rolling_{rolling}, grid_{rolling.grid}, checked_{checked} {
     report_.base = request.base;
     report_.candidate = request.candidate;
     report_.policy = request.policy;
@@ -75,6 +76,11 @@ class DiffStudy {
     report_.costs = answer.comparison;
     report_.interrupted = answer.interrupted;
     if (!goes_on()) return;
+    if (request_.rolling) {
+      report_.rollouts = rollouts(rolling_, report_.costs);
+      report_.interrupted = !progress("costs");
+      return;
+    }
     report_.margin = compare_margins(request_.base.value, request_.candidate.value, grid_.points,
                                      report_.costs, request_.policy);
     report_.blame = blame(report_.profiles.changes, request, answer);
@@ -117,6 +123,7 @@ class DiffStudy {
   }
 
   const DiffRequest& request_;
+  const RollingGrid& rolling_;
   const ReviewedGrid& grid_;
   const ReviewedPoint& checked_;
   DiffReport report_;
@@ -130,12 +137,15 @@ config::Result<DiffReport> diff(const DiffRequest& request, const config::SpecPa
   const auto grid =
       read_reviewed_grid(request.grid.empty() ? "review" : request.grid, base, candidate, specs);
   if (!grid) return grid.error();
+  const config::Result<RollingGrid> rolling =
+      request.rolling ? rolling_grid(*grid) : RollingGrid{*grid, {}};
+  if (!rolling) return rolling.error();
   if (request.scenario.empty()) {
     const auto least = std::ranges::min_element(
         grid->points, {}, [](const ReviewedPoint& point) { return load_of(point); });
     ReviewedPoint checked = *least;
     if (grid->points.size() > 1) checked.name = fmt::format("{}, {}", grid->name, least->name);
-    return DiffStudy{request, *grid, checked}.run();
+    return DiffStudy{request, *rolling, checked}.run();
   }
   const auto scenario = read_reviewed_grid(request.scenario, base, candidate, specs);
   if (!scenario) return scenario.error();
@@ -144,7 +154,7 @@ config::Result<DiffReport> diff(const DiffRequest& request, const config::SpecPa
         request.scenario,
         fmt::format("a grid of {} scenarios; expected a single scenario", scenario->points.size())};
   }
-  return DiffStudy{request, *grid, scenario->points.front()}.run();
+  return DiffStudy{request, *rolling, scenario->points.front()}.run();
 }
 
 }  // namespace stormproof::diff

@@ -156,6 +156,22 @@ struct CostComparison {
   std::string storm;       ///< what a storm is, by the limits of the first of them
 };
 
+// --- a rolling upgrade --------------------------------------------------------------------------
+
+/// One host more runs the candidate.
+struct RolloutStep {
+  std::uint32_t host = 0;
+  std::string configuration;  ///< what the fleet costs then: the name of a configuration
+};
+
+/// The orders in which the hosts of a fleet can be upgraded, one by one.
+struct Rollout {
+  std::string fleet;
+  std::size_t kinds = 0;   ///< of hosts; those of one kind are interchangeable
+  std::size_t fleets = 0;  ///< that were looked at: all that an order can pass through
+  std::vector<RolloutStep> best, worst;
+};
+
 // --- the storm-free margin ----------------------------------------------------------------------
 
 /// How far a profile is from needless repairs.
@@ -239,7 +255,8 @@ struct DiffReport {
   Policy policy;
   Comparison profiles;
   VerdictComparison verdicts;
-  CostComparison costs;
+  CostComparison costs;  ///< of a rolling upgrade: of all its fleets
+  std::vector<Rollout> rollouts;
   MarginComparison margin;
   TellingApart telling_apart;
   std::optional<Blame> blame;
@@ -264,6 +281,7 @@ struct DiffRequest {
   std::optional<std::uint64_t> seed;  ///< of the first schedule; absent: the grid's, or 0
   bool check_verdicts = true;
   bool tell_apart = true;
+  bool rolling = false;  ///< hosts get the candidate one by one
   std::size_t threads = 0;
   std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
   std::function<bool()> interrupted;                       ///< the same, asked by any thread

@@ -239,6 +239,7 @@ Document document_of(const DiffReport& report, const Files& files) {
   add_reasons(blocks, report);
   add_knobs(blocks, report);
   add_verdicts(blocks, report, files);
+  add_rollouts(blocks, report);
   add_costs(blocks, report);
   add_margin(blocks, report);
   add_blame(blocks, report);

@@ -177,6 +177,21 @@ void describe(V& v, const MarginComparison& margin) {
 }
 
 template <class V>
+void describe(V& v, const RolloutStep& step) {
+  v("host", step.host);
+  v("configuration", step.configuration);
+}
+
+template <class V>
+void describe(V& v, const Rollout& rollout) {
+  v("name", rollout.fleet);
+  v("kind_count", rollout.kinds);
+  v("fleet_count", rollout.fleets);
+  v("best", rollout.best);
+  v("worst", rollout.worst);
+}
+
+template <class V>
 void describe(V& v, const Blame::Entry& entry) {
   v("reverted", entry.reverted);
   v("t_disc_ns", entry.completion_median);
@@ -217,6 +232,7 @@ void describe(V& v, const ReportWithFiles& shown) {
   v("changes", report.profiles.changes);
   v("check", checks);
   v("costs", ran ? std::optional{report.costs} : std::nullopt);
+  v("rolling", report.rollouts);
   v("margin", ran ? std::optional{report.margin} : std::nullopt);
   v("blame", report.blame);
   v("telling_apart", apart);

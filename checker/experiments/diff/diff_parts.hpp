@@ -12,6 +12,9 @@ namespace stormproof::diff {
 /// nothing had to run.
 void add_costs(report::Blocks& blocks, const DiffReport& report);
 
+/// In which order the hosts of a rolling upgrade go, step by step; nothing if it is none.
+void add_rollouts(report::Blocks& blocks, const DiffReport& report);
+
 /// The two runs of the least scenario that tells the profiles apart, or why there is none.
 void add_apart(report::Blocks& blocks, const DiffReport& report, const Files& files);
 

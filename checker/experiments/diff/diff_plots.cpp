@@ -123,7 +123,11 @@ std::vector<std::string> measure_plots(const CostComparison& costs, Measure meas
   });
   whole.title = fmt::format("{} over the load", words_of(measure));
   whole.x = {.label = "descriptors to be delivered across hosts", .scale = plot::Scale::log};
-  std::vector<std::string> plots{to_svg(whole)};
+  std::vector<std::string> plots;
+  const bool is_one_load = std::ranges::all_of(costs.configurations, [&](const Configuration& one) {
+    return one.descriptors == costs.configurations.front().descriptors;
+  });
+  if (!is_one_load || groups_of(costs).empty()) plots.push_back(to_svg(whole));
   for (const auto& [name, configurations] : groups_of(costs)) {
     plot::Chart chart = chart_of(configurations, measure, last_value);
     chart.title = fmt::format("{} at {}", words_of(measure), name);

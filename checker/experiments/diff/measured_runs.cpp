@@ -117,7 +117,7 @@ bool add_runs(const std::vector<ReviewedPoint>& points, const std::vector<RunsWa
     const auto& [point, sample] = jobs[k];
     const Scenario base = trials::under_seed(points[point].base, settings.first_seed + sample);
     Scenario candidate = points[point].candidate;
-    if (base.deployment.schedule) candidate.deployment = base.deployment;
+    if (base.deployment.schedule) candidate.deployment.draw_schedule(settings.first_seed + sample);
     const auto before = runner.simulate(base);
     const auto after = before ? runner.simulate(candidate) : std::nullopt;
     if (!after) return std::nullopt;

@@ -130,6 +130,9 @@ class Study {
   std::optional<InputError> settle(const model::config::SpecPath& specs) {
     auto scenario = model::config::read_scenario(request_.scenario, request_.overrides, specs);
     if (!scenario) return scenario.error();
+    if (const auto why = props::why_profile_is_not_changed(*scenario); !why.empty()) {
+      return InputError{request_.scenario, std::string{why}};
+    }
     if (scenario->deployment.life) {
       return InputError{request_.scenario + ": deployment.life",
                         "expected none: a launch plan is about first starts"};

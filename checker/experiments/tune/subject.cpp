@@ -7,6 +7,7 @@
 
 #include "model/config/scenario_file.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::tune {
 
@@ -45,6 +46,9 @@ Result<Subject> read_subject(const std::string& reference, std::span<const std::
     InputError error = traced.error();
     if (!preset.empty() && error.where == "--set dds=" + preset) error.where = "--preset " + preset;
     return error;
+  }
+  if (const auto why = props::why_profile_is_not_changed(traced->value); !why.empty()) {
+    return InputError{reference, std::string{why}};
   }
   const std::string& name = traced->preset;
 

@@ -14,6 +14,7 @@
 #include "checker/evidence/capture/write/packet_layout.hpp"
 #include "checker/evidence/capture/write/pcap_writer.hpp"
 #include "checker/evidence/capture/write/server_messages.hpp"
+#include "model/engine/profiles.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 
@@ -28,6 +29,18 @@ VendorId vendor_of(const model::Scenario& scenario) {
   return model::traits_of(scenario.dds).vendor.value_or(simulated_vendor);
 }
 
+/// Each of its own version.
+std::vector<write::Identity> identities_of(const model::Scenario& scenario, VendorId vendor) {
+  const bool has_server = model::traits_of(scenario.dds).has_server;
+  std::vector<write::Identity> all = write::identities(
+      scenario.deployment, vendor, has_server ? scenario.dds.discovery : model::Discovery::simple,
+      scenario.dds.version.sizes);
+  for (std::uint32_t i = 0; i < all.size() && is_mixed(scenario); ++i) {
+    all[i].version = write::announced_version(dds_of(scenario, i).version.sizes);
+  }
+  return all;
+}
+
 }  // namespace
 
 class CaptureProbe::Implementation {
@@ -36,18 +49,19 @@ class CaptureProbe::Implementation {
       : scenario_{scenario},
         traits_{model::traits_of(scenario.dds)},
         vendor_{vendor_of(scenario)},
-        layout_{model::fastdds::deployed_profile(scenario)},
-        identities_{write::identities(
-            scenario.deployment, vendor_,
-            traits_.has_server ? scenario.dds.discovery : model::Discovery::simple,
-            scenario.dds.version.sizes)},
+        profiles_{scenario},
+        identities_{identities_of(scenario, vendor_)},
         cyclone_{scenario, vendor_, identities_},
         of_server_{scenario, vendor_, identities_},
-        pcap_{std::move(sink)} {}
+        pcap_{std::move(sink)} {
+    for (const model::DdsProfile& dds : profiles_.different()) {
+      layouts_.emplace_back(model::fastdds::deployed_profile(scenario, dds));
+    }
+  }
 
   void start(const model::Topology& topology) {
     topology_ = &topology;
-    if (traits_.has_control_relations) control_.emplace(topology, scenario_.dds);
+    if (traits_.has_control_relations) control_.emplace(topology, scenario_);
   }
 
   void announce(const model::Packet& packet, std::uint32_t source) {
@@ -96,7 +110,7 @@ class CaptureProbe::Implementation {
       return one.metatraffic.address == to.address;
     };
     const auto there = static_cast<std::uint32_t>(std::ranges::count_if(identities_, is_there));
-    const std::uint32_t round = scenario_.dds.peer_ports - there;
+    const std::uint32_t round = profiles_.of(source).peer_ports - there;
     const std::uint32_t port = there + unheard_[{source, to.address}]++ % round;
     to.port = write::metatraffic_port(port);
     announce(packet, source, to);
@@ -110,6 +124,9 @@ class CaptureProbe::Implementation {
   }
 
  private:
+  [[nodiscard]] const write::PacketLayout& layout_of(std::uint32_t source) const {
+    return layouts_[profiles_.number_of(source)];
+  }
   [[nodiscard]] write::MessageWriter message(std::uint32_t source) const {
     return write::MessageWriter{vendor_, identities_[source].prefix};
   }
@@ -150,7 +167,8 @@ class CaptureProbe::Implementation {
 
   /// SEDP DATA and HEARTBEATs. What does not fit in one datagram goes on in another.
   void describe(const model::Packet& packet, std::uint32_t source, std::uint32_t destination) {
-    const bool is_directed = layout_.names_destination(packet);
+    const write::PacketLayout& layout = layout_of(source);
+    const bool is_directed = layout.names_destination(packet);
     const EntityId reader = is_directed ? write::sedp_reader(packet.stream) : 0;
     const EntityId writer = write::sedp_writer(packet.stream);
     const UdpEnd& to = identities_[destination].metatraffic;
@@ -170,7 +188,7 @@ class CaptureProbe::Implementation {
     };
     const std::uint32_t heartbeats = write::PacketLayout::heartbeats_in(packet);
     const std::size_t tail = heartbeats * write::MessageWriter::heartbeat_size;
-    layout_.for_each_data(packet, header, tail, [&](std::uint32_t d, std::size_t end) {
+    layout.for_each_data(packet, header, tail, [&](std::uint32_t d, std::size_t end) {
       const write::ParameterWriter parameters = write::endpoint_parameters(
           identities_[source], vendor_, packet.stream, d, name_of(packet.stream, d, source));
       make_room(write::MessageWriter::info_ts_size + write::smallest_data(parameters));
@@ -237,7 +255,7 @@ class CaptureProbe::Implementation {
     const write::Identity& to = identities_[destination];
     write::MessageWriter out = message(source);
     if (packet.kind == PacketKind::user_heartbeat) {
-      const bool is_directed = packet.payload_bytes >= layout_.heartbeat_bytes();
+      const bool is_directed = packet.payload_bytes >= layout_of(source).heartbeat_bytes();
       if (is_directed) out.info_dst(to.prefix);
       out.heartbeat(is_directed ? ends.reader : 0, ends.writer, packet.last_sample(),
                     ++counts_[{source, ends.writer}]);
@@ -277,7 +295,8 @@ class CaptureProbe::Implementation {
   const model::Scenario& scenario_;
   const model::ImplementationTraits& traits_;
   const VendorId vendor_;
-  const write::PacketLayout layout_;
+  const model::Profiles profiles_;
+  std::vector<write::PacketLayout> layouts_;  ///< by number of the profile
   const std::vector<write::Identity> identities_;
   const write::CycloneMessages cyclone_;
   write::ServerMessages of_server_;

@@ -24,13 +24,15 @@ class ControlTopics {
   /// Each cross-host pair has liveliness, the two topics of every node, and the user topics that
   /// its source publishes and its destination subscribes to; with a server only liveliness. What
   /// looks up types comes last, of every pair: questions, then answers.
-  ControlTopics(const model::Topology& topology, const model::DdsProfile& dds)
-      : lookups_{model::fastdds::looks_up_types(dds) ? 2U : 0U} {
+  ControlTopics(const model::Topology& topology, const model::Scenario& scenario) {
     std::uint32_t relations = 0;
     for (std::uint32_t number = 0; number < topology.pair_count(); ++number) {
       first_relation_.push_back(relations);
-      relations += lookups_;
       const model::Pair& pair = topology.pair(number);
+      const bool ask = model::fastdds::looks_up_types(dds_of(scenario, pair.source)) &&
+                       model::fastdds::looks_up_types(dds_of(scenario, pair.destination));
+      lookups_.push_back(ask ? 2 : 0);
+      relations += lookups_.back();
       if (!pair.cross_host) continue;
       const std::uint32_t publications = topology.descriptor_count(pair.source, model::Stream::pub);
       const std::uint32_t subscriptions =
@@ -48,7 +50,7 @@ class ControlTopics {
 
   [[nodiscard]] Ends ends(const model::Packet& packet) const {
     const std::uint32_t after = first_relation_[packet.pair + 1] - packet.detail;
-    if (after <= lookups_) {
+    if (after <= lookups_[packet.pair]) {
       return after == 2 ? Ends{0x000300c3, 0x000300c4, true} : Ends{0x000301c3, 0x000301c4, true};
     }
     const std::uint32_t topic = packet.detail - first_relation_[packet.pair];
@@ -62,7 +64,7 @@ class ControlTopics {
   }
 
  private:
-  std::uint32_t lookups_;                      ///< of each pair
+  std::vector<std::uint32_t> lookups_;         ///< by pair
   std::vector<std::uint32_t> first_relation_;  ///< by pair
 };
 

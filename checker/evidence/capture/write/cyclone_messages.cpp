@@ -54,7 +54,7 @@ SequenceNumberSet missing_in(const Submessage& acknack) {
 std::int64_t CycloneMessages::bytes_of(const Submessage& m) const {
   switch (m.kind) {
     case Submessage::Kind::spdp:
-      return scenario_.dds.allow_multicast == model::AllowMulticast::always
+      return dds_of(scenario_, m.participant).allow_multicast == model::AllowMulticast::always
                  ? cyclone::announcement_with_multicast_bytes
                  : cyclone::announcement_bytes;
     case Submessage::Kind::data:

@@ -29,7 +29,14 @@ TopicName service(std::uint32_t k, bool is_reply, const std::string& node) {
       fmt::format("rcl_interfaces::srv::dds_::{}_{}_", type, is_reply ? "Response" : "Request")};
 }
 
-/// Fast DDS says its version from 3.0 on.
+UdpEnd at(std::size_t host, std::size_t port) {
+  const std::array<std::uint8_t, 4> address{10, static_cast<std::uint8_t>(host / 256),
+                                            static_cast<std::uint8_t>(host % 256), 1};
+  return {Address::from(address), static_cast<std::uint16_t>(port)};
+}
+
+}  // namespace
+
 std::array<std::uint8_t, 2> announced_version(model::SizesSince sizes) {
   switch (sizes) {
     case model::SizesSince::v2_6:
@@ -41,14 +48,6 @@ std::array<std::uint8_t, 2> announced_version(model::SizesSince sizes) {
   }
   return {};
 }
-
-UdpEnd at(std::size_t host, std::size_t port) {
-  const std::array<std::uint8_t, 4> address{10, static_cast<std::uint8_t>(host / 256),
-                                            static_cast<std::uint8_t>(host % 256), 1};
-  return {Address::from(address), static_cast<std::uint16_t>(port)};
-}
-
-}  // namespace
 
 std::vector<Identity> identities(const model::Deployment& deployment, VendorId vendor,
                                  model::Discovery discovery, model::SizesSince sizes) {

@@ -39,6 +39,9 @@ struct Identity {
   std::array<std::uint8_t, 2> version{};
 };
 
+/// Of a version whose announcements have these sizes: Fast DDS says it from 3.0 on.
+[[nodiscard]] std::array<std::uint8_t, 2> announced_version(model::SizesSince sizes);
+
 /// In the order of the deployment, of a version whose announcements have these sizes. With a
 /// Discovery Server it is the last one, called
 /// simulated_server, with port 11811 of the first host.
