@@ -10,8 +10,8 @@
 #include "checker/presentation/text/plain_text.hpp"
 #include "checker/verification/check/next_steps.hpp"
 #include "model/config/scenario_file.hpp"
-#include "props/applicability.hpp"
 #include "model/config/tree/quantities.hpp"
+#include "props/applicability.hpp"
 
 namespace stormproof::cli {
 

@@ -140,7 +140,8 @@ std::int64_t sample_bytes(const World& w, const Sample& sample) {
 }
 
 void hand_over(World& w, Id i, Id j, int s, Id d) {
-  if (!asks_for_types(w, i, j) || w.makes(Mistake::nobody_waits)) return note_notified(w, i, j, s, d);
+  if (!asks_for_types(w, i, j) || w.makes(Mistake::nobody_waits))
+    return note_notified(w, i, j, s, d);
   if (!cross_host(w, i, j) && w.makes(Mistake::no_questions_on_host)) return;
   const std::string type = type_of(w, i, s, d);
   if (knows(w, j, type)) return note_notified(w, i, j, s, d);

@@ -175,7 +175,8 @@ void charge_added(World& w, Sending& sending, int s, std::int64_t submessage) {
 }
 
 void deliver(World& w, Sending& sending, int s, Id d, const std::vector<Id>& destinations) {
-  if (sending.open.has_value() && !joins(w, sending.i, *sending.open, s, d, destinations)) flush(w, sending);
+  if (sending.open.has_value() && !joins(w, sending.i, *sending.open, s, d, destinations))
+    flush(w, sending);
   if (!sending.open.has_value()) open_message(w, sending, s, destinations);
   sending.open->descriptors.push_back(d);
   sending.open->bytes += timestamp_bytes + submessage_bytes(w, sending.i, s, d);

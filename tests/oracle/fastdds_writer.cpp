@@ -112,7 +112,8 @@ void receive_acknack(World& w, const Packet& packet) {
   if (take_bitmap(w, r, packet, wr.existing)) {
     if (!wr.response_pending || w.makes(Mistake::response_per_request)) {
       wr.response_pending = true;
-      schedule_after(w, sedp(w, i).nack_response_delay, make_event(EventKind::nack_response, i, i, s));
+      schedule_after(w, sedp(w, i).nack_response_delay,
+                     make_event(EventKind::nack_response, i, i, s));
     }
   } else if (!packet.bitmap.empty() && !w.makes(Mistake::vain_request_does_not_arm)) {
     arm(w, i, s);

@@ -1,5 +1,5 @@
-// Compares product and oracle on random scenarios whose participants have different profiles of Fast
-// DDS, and the product with itself where all have one, said in another way.
+// Compares product and oracle on random scenarios whose participants have different profiles of
+// Fast DDS, and the product with itself where all have one, said in another way.
 #include <iostream>
 #include <string>
 
@@ -41,10 +41,17 @@ TEST(RandomMixed, ProductAndOracleAgree) {
 }
 
 /// The presets that may stand beside others.
-const char* const versions[] = {"fastdds-2.6.11", "fastdds-2.6.11-relations",
-                                "fastdds-2.6.11-sndbuf4M", "fastdds-2.9.1", "fastdds-2.14.5",
-                                "fastdds-3.2", "fastdds-3.6", "fastdds-static-2.6.11",
-                                "cyclonedds-0.10", "cyclonedds-0.10-multicast", "cyclonedds-11"};
+const char* const versions[] = {"fastdds-2.6.11",
+                                "fastdds-2.6.11-relations",
+                                "fastdds-2.6.11-sndbuf4M",
+                                "fastdds-2.9.1",
+                                "fastdds-2.14.5",
+                                "fastdds-3.2",
+                                "fastdds-3.6",
+                                "fastdds-static-2.6.11",
+                                "cyclonedds-0.10",
+                                "cyclonedds-0.10-multicast",
+                                "cyclonedds-11"};
 
 void expect_same(const model::Scenario& one, const model::Scenario& other, const char* version) {
   const model::RunResult a = simulate(one);

@@ -36,8 +36,7 @@ std::string preset_of(const std::string& word, const SpecPath& specs) {
 /// A profile by name, path, or as a map of keys.
 model::config::Result<model::DdsProfile> profile_of(const std::string& text,
                                                     const SpecPath& specs) {
-  const std::string value =
-      text.starts_with('{') ? text : model::config::quoted_scalar(text);
+  const std::string value = text.starts_with('{') ? text : model::config::quoted_scalar(text);
   const auto scenario = model::config::parse_scenario(
       fmt::format("{{deployment: {{hosts: 2, participants_per_host: 1, "
                   "endpoints_per_participant: 2}}, dds: {}, wireless: wired, time_limit: 1s}}",
@@ -50,8 +49,7 @@ model::config::Result<model::DdsProfile> profile_of(const std::string& text,
 }  // namespace
 
 std::optional<InputError> give_profiles(const Configuration& configuration,
-                                        const ScenarioOptions& options,
-                                        model::Scenario& scenario) {
+                                        const ScenarioOptions& options, model::Scenario& scenario) {
   if (configuration.profiles.empty()) return std::nullopt;
   const SpecPath specs = SpecPath::standard();
   std::map<std::string, std::string> said;

@@ -20,7 +20,7 @@ struct StudyRequest {
   std::vector<std::string> change;     ///< of all but the baseline's
   std::string baseline;                ///< profile; empty: none
   ChannelSource channel = ChannelSource::profile;
-  std::vector<std::string> words;  ///< as in `ScenarioOptions`
+  std::vector<std::string> words;   ///< as in `ScenarioOptions`
   std::vector<std::string> scopes;  ///< empty: all that occur
   PredictOptions predict;
 };

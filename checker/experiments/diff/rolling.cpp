@@ -27,9 +27,8 @@ std::string kind_of(const model::Deployment& deployment, std::uint32_t host) {
   std::string text;
   if (host < deployment.hosts.size()) {
     const model::Host& one = deployment.hosts[host];
-    text = fmt::format("{} {} {} {}", static_cast<int>(one.link),
-                       one.rate ? one.rate->count() : 0, one.access_point.value_or(""),
-                       one.power_save.has_value());
+    text = fmt::format("{} {} {} {}", static_cast<int>(one.link), one.rate ? one.rate->count() : 0,
+                       one.access_point.value_or(""), one.power_save.has_value());
   }
   for (const model::Participant& p : deployment.participants) {
     if (p.host.value != host) continue;
@@ -83,10 +82,9 @@ std::string words_of(const std::vector<AlikeHosts>& kinds, const Counts& counts)
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     if (counts[k] == 0) continue;
-    parts.push_back(kinds[k].hosts.size() == 1
-                        ? kinds[k].name
-                        : fmt::format("{} of {} like {}", counts[k], kinds[k].hosts.size(),
-                                      kinds[k].name));
+    parts.push_back(kinds[k].hosts.size() == 1 ? kinds[k].name
+                                               : fmt::format("{} of {} like {}", counts[k],
+                                                             kinds[k].hosts.size(), kinds[k].name));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -110,17 +108,16 @@ model::Scenario with_upgraded(const ReviewedPoint& point, const std::vector<Alik
 }
 
 std::optional<InputError> why_not(const ReviewedPoint& point) {
-  const std::string expected =
-      model::config::expected_beside(point.base.dds, point.candidate.dds);
+  const std::string expected = model::config::expected_beside(point.base.dds, point.candidate.dds);
   if (!expected.empty()) {
-    return InputError{"--rolling", "the two profiles cannot run beside each other; expected " +
-                                       expected};
+    return InputError{"--rolling",
+                      "the two profiles cannot run beside each other; expected " + expected};
   }
   if (!is_mixed(point.base)) return std::nullopt;
-  return InputError{"--rolling",
-                    fmt::format("{}: participants have profiles of their own; expected one profile, "
-                                "which the upgrade replaces",
-                                point.name)};
+  return InputError{
+      "--rolling", fmt::format("{}: participants have profiles of their own; expected one profile, "
+                               "which the upgrade replaces",
+                               point.name)};
 }
 
 /// What a fleet costs: never completing is the worst.
@@ -145,7 +142,8 @@ class Orders {
   /// Hosts one by one: the last step leads to all of them from whichever fleet before is better, or
   /// worse, and so on back to the first.
   [[nodiscard]] std::vector<RolloutStep> order(bool best) const {
-    std::vector<std::pair<Cost, Cost>> worst_on_way(stages_.upgraded.size());  // and that of the way
+    std::vector<std::pair<Cost, Cost>> worst_on_way(
+        stages_.upgraded.size());  // and that of the way
     std::vector<std::size_t> kind_of_step(stages_.upgraded.size());
     for (std::size_t s = 0; s < stages_.upgraded.size(); ++s) {
       const Cost own = cost_of(configuration(s));
@@ -172,7 +170,8 @@ class Orders {
   [[nodiscard]] const Configuration& configuration(std::size_t stage) const {
     return costs_.configurations[stages_.first_point + stage];
   }
-  [[nodiscard]] std::optional<std::size_t> number_before(std::size_t stage, std::size_t kind) const {
+  [[nodiscard]] std::optional<std::size_t> number_before(std::size_t stage,
+                                                         std::size_t kind) const {
     Counts before = stages_.upgraded[stage];
     --before[kind];
     const auto found = number_of_.find(before);

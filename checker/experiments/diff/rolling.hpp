@@ -1,7 +1,7 @@
-// A rolling upgrade: the fleets between the first upgraded host and the last, each a deployment whose
-// upgraded hosts run the candidate, compared with the fleet as it was. What all of them cost says
-// which order of hosts is the best, and which the worst.
-// specs/guide/diff.md, "A rolling upgrade".
+// A rolling upgrade: the fleets between the first upgraded host and the last, each a deployment
+// whose upgraded hosts run the candidate, compared with the fleet as it was. What all of them cost
+// says which order of hosts is the best, and which the worst. specs/guide/diff.md, "A rolling
+// upgrade".
 #pragma once
 
 #include "checker/experiments/diff/diff.hpp"

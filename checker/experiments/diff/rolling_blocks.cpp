@@ -1,5 +1,5 @@
-// A rolling upgrade as blocks: the worst and the best order of its hosts, with what each fleet on the
-// way costs.
+// A rolling upgrade as blocks: the worst and the best order of its hosts, with what each fleet on
+// the way costs.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -44,13 +44,13 @@ Table table_of(const std::vector<RolloutStep>& order, const DiffReport& report,
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Configuration& one = configuration_of(report.costs, order[k]);
     const bool is_last = k + 1 == order.size();
-    table.rows.push_back({{fmt::format("{}host {}{}", k == 0 ? "" : "+ ", order[k].host,
-                                       is_last ? ", the last" : ""),
-                           completion_text(one[Measure::completion].after.median),
-                           change_text(one[Measure::completion]),
-                           value_text(Measure::messages, one[Measure::messages].after.median),
-                           one.storm_after ? "yes" : "no",
-                           badge_of(judgment_of(one, report.policy))}});
+    table.rows.push_back(
+        {{fmt::format("{}host {}{}", k == 0 ? "" : "+ ", order[k].host,
+                      is_last ? ", the last" : ""),
+          completion_text(one[Measure::completion].after.median),
+          change_text(one[Measure::completion]),
+          value_text(Measure::messages, one[Measure::messages].after.median),
+          one.storm_after ? "yes" : "no", badge_of(judgment_of(one, report.policy))}});
   }
   return table;
 }
@@ -70,7 +70,8 @@ void add_rollouts(report::Blocks& blocks, const DiffReport& report) {
                              "the lowest first. An order is as bad as the worst fleet that it "
                              "passes through.",
                              plural(one.kinds, "kind")))});
-    section.blocks.emplace_back(table_of(one.worst, report, is_one ? "host by host" : "worst order"));
+    section.blocks.emplace_back(
+        table_of(one.worst, report, is_one ? "host by host" : "worst order"));
     if (!is_one) section.blocks.emplace_back(table_of(one.best, report, "best order"));
   }
   blocks.emplace_back(std::move(section));

@@ -101,7 +101,8 @@ TEST(Rolling, TheBestOrderAvoidsTheWorstFleet) {
 }
 
 TEST(Rolling, WhatCannotBeMixedIsRefused) {
-  const auto other = rolling_grid({"g", {point(alike, "fastdds-2.6.11", "cyclonedds-0.10")}, {}, 0});
+  const auto other =
+      rolling_grid({"g", {point(alike, "fastdds-2.6.11", "cyclonedds-0.10")}, {}, 0});
   ASSERT_FALSE(other);
   EXPECT_NE(other.error().message.find("cannot run beside each other"), std::string::npos);
   ReviewedPoint mixed = point(alike);
