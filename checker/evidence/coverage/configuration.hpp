@@ -57,7 +57,7 @@ struct ScenarioOptions {
   std::string wireless;                ///< name or path of a profile
   std::vector<std::string> overrides;  ///< key.path=value
   ChannelSource channel = ChannelSource::profile;
-  std::vector<std::string> words;  ///< "WORD=PROFILE": what processes run by the words of rows
+  std::vector<std::string> words = {};  ///< "WORD=PROFILE": what processes run by the words of rows
 };
 
 /// When participants start in samples of the scenario of a configuration: as in the measured runs,
