@@ -5,7 +5,8 @@
 //
 // Nearly every kind of event is scheduled at a constant distance from now, so its events arrive in
 // ascending order. Each kind therefore has a lane: its first event stands in a short ranking, the
-// others in a plain queue behind it; what would break the order of its lane goes to a common heap.
+// others in a plain queue behind it; what would break the order of its lane goes to a common heap
+// (event_heap.hpp).
 // What is scheduled for the very instant that is being processed, as every dispatch is, needs no
 // place: of each class it stands in a line, which is next unless the ranking has something of that
 // instant. The next event is the least of these: exact for any schedule, and fast for the usual
@@ -16,9 +17,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
 
 #include "model/engine/chunk_queue.hpp"
+#include "model/engine/event_heap.hpp"
 #include "model/event.hpp"
 #include "model/units.hpp"
 
@@ -64,16 +65,10 @@ class EventQueue {
   [[nodiscard]] bool is_quiet() const { return size_ == idle_; }
   [[nodiscard]] std::size_t size() const { return size_; }
 
-  /// Time of the next event. The queue must not be empty.
-  [[nodiscard]] Nanoseconds next_time() const {
-    if (ranked_ == 0) return instant_;
-    const Nanoseconds ranked = ranking_[ranked_ - 1].time;
-    return lines_ == 0 ? ranked : std::min(ranked, instant_);
-  }
-
   /// Removes and returns the next event. The queue must not be empty.
   Event pop() {
     --size_;
+    if (!heap_.empty() && is_heap_next()) return pop_heap();
     if (lines_ == 0) {
       instant_ = ranking_[ranked_ - 1].time;
     } else if (ranked_ == 0 || !is_before_lines(ranking_[ranked_ - 1])) {
@@ -81,8 +76,6 @@ class EventQueue {
     }
     const Ranked& first = ranking_[--ranked_];
     const std::size_t number = first.lane;
-    if (number == heap_lane) [[unlikely]]
-      return pop_heap();
     const auto kind = static_cast<EventKind>(number);
     if (is_idle(kind)) --idle_;
     const Event event{first.time, first.order, first.subject, first.detail, kind};
@@ -98,7 +91,8 @@ class EventQueue {
   }
 
  private:
-  static constexpr std::size_t heap_lane = event_kind_count;
+  /// Whose order breaks once breaks it again as a rule, as that of random delays does.
+  static constexpr unsigned others_to_heap = 32;
 
   /// An event of a lane.
   struct Waiting {
@@ -107,7 +101,7 @@ class EventQueue {
     std::uint32_t subject = 0;
     std::uint32_t detail = 0;
   };
-  /// The first one of a lane, or of the heap.
+  /// The first one of a lane.
   struct Ranked : Waiting {
     std::size_t lane = 0;
   };
@@ -120,6 +114,7 @@ class EventQueue {
   };
   struct Lane {
     bool is_ranked = false;
+    unsigned to_heap = 0;   // so many of its next events go there, without a look at their order
     Nanoseconds last_time;  // of its last event, if it is ranked
     std::uint64_t last_order = 0;
     ChunkQueue<Waiting> others;  // behind the first one
@@ -149,13 +144,13 @@ class EventQueue {
   static constexpr bool is_idle(EventKind kind) {
     return kind == EventKind::announcement_due || kind == EventKind::lease_check;
   }
-  static bool later(const Event& a, const Event& b) { return b.before(a); }
 
   /// The line of the least class, of those that are not empty.
   [[nodiscard]] std::size_t next_line() const {
     return static_cast<std::size_t>(std::countr_zero(lines_));
   }
-  [[nodiscard]] bool is_before_lines(const Ranked& first) const {
+  template <class First>
+  [[nodiscard]] bool is_before_lines(const First& first) const {
     return is_before(first.time, first.order, instant_, at_once_[next_line()].front().order);
   }
   Event pop_at_once() {
@@ -173,8 +168,13 @@ class EventQueue {
                                 std::uint32_t subject, std::uint32_t detail) {
     const auto number = static_cast<std::size_t>(kind);
     Lane& lane = lanes_[number];
+    if (lane.to_heap > 0) {
+      --lane.to_heap;
+      return heap_.push(EventHeap::Entry::of({time, order, subject, detail, kind}));
+    }
     if (lane.is_ranked && !is_before(lane.last_time, lane.last_order, time, order)) [[unlikely]] {
-      return push_heap({time, order, subject, detail, kind});
+      lane.to_heap = others_to_heap;
+      return heap_.push(EventHeap::Entry::of({time, order, subject, detail, kind}));
     }
     lane.last_time = time;
     lane.last_order = order;
@@ -197,39 +197,25 @@ class EventQueue {
     return ranking_[k];
   }
 
-  /// The least event of the heap stands in the ranking as well.
-  void rank_heap() {
-    const Event& first = heap_.front();
-    fill(enter(first.time, first.order), first.time, first.order, first.subject, first.detail,
-         heap_lane);
-  }
-  void push_heap(const Event& event) {
-    const bool first = heap_.empty() || event.before(heap_.front());
-    heap_.push_back(event);
-    std::push_heap(heap_.begin(), heap_.end(), later);
-    if (!first) return;
-    const auto end = ranking_.begin() + static_cast<std::ptrdiff_t>(ranked_);
-    const auto other =
-        std::find_if(ranking_.begin(), end, [](const Ranked& r) { return r.lane == heap_lane; });
-    if (other != end) {
-      std::copy(other + 1, end, other);
-      --ranked_;
+  [[nodiscard]] bool is_heap_next() {
+    const Event first = heap_.first().event();
+    if (ranked_ > 0) {
+      const Ranked& ranked = ranking_[ranked_ - 1];
+      if (is_before(ranked.time, ranked.order, first.time, first.order)) return false;
     }
-    rank_heap();
+    return lines_ == 0 || is_before_lines(first);
   }
-
   Event pop_heap() {
-    std::pop_heap(heap_.begin(), heap_.end(), later);
-    const Event event = heap_.back();
-    heap_.pop_back();
+    const Event event = heap_.first().event();
+    heap_.pop_first();
+    if (lines_ == 0) instant_ = event.time;
     if (is_idle(event.kind)) --idle_;
-    if (!heap_.empty()) rank_heap();
     return event;
   }
 
   std::array<Lane, event_kind_count> lanes_;
-  std::vector<Event> heap_;
-  std::array<Ranked, event_kind_count + 1> ranking_;  // the next one is last
+  EventHeap heap_;
+  std::array<Ranked, event_kind_count> ranking_;  // the next one is last
   std::size_t ranked_ = 0;
   std::size_t size_ = 0;
   std::size_t idle_ = 0;  // of these, announcements and looks at whether there were any
