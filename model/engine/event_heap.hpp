@@ -123,7 +123,7 @@ class EventHeap {
       std::size_t hole = 0;
       std::size_t child = 1;
       for (; child + 1 < size; child = 2 * hole + 1) {
-        child += key(all[child + 1]) < key(all[child]) ? 1 : 0;
+        child += static_cast<std::size_t>(key(all[child + 1]) < key(all[child]));
         all[hole] = all[child];
         hole = child;
       }
