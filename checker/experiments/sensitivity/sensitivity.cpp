@@ -3,9 +3,11 @@
 #include "checker/experiments/sensitivity/sensitivity.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 
+#include "checker/engines/exact/storm.hpp"
 #include "checker/experiments/statistics/completion.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/under_seed.hpp"
@@ -57,23 +59,60 @@ class Study {
   Study(const Scenario& scenario, const Options& options)
       : scenario_{scenario},
         options_{options},
+        samples_{options.samples},
+        pairs_of_{options.pairs_of},
         runner_{options.threads, options.on_progress},
         knobs_{knobs_of(scenario, options.range)} {}
 
   Report run() {
+    fit_into_time();
     run_single_changes();
-    if (report_.finished && options_.pairs_of > 1) run_pairs();
+    if (report_.finished && pairs_of_ > 1) run_pairs();
     report_.runs = runner_.finished();
     report_.finished = !runner_.stopped();
     return std::move(report_);
   }
 
  private:
+  /// Of the time that is left, what runs are planned for.
+  static constexpr double careful = 0.8;
+  /// Fewer pairs say nothing with confidence.
+  static constexpr std::size_t least_samples = 6;
+
+  /// If there is no time for all: no pairs, then fewer samples, and where the unchanged scenario
+  /// does not complete, shorter runs of all.
+  void fit_into_time() {
+    if (!options_.seconds_left || !options_.seconds_left()) return;
+    std::atomic<bool> completes = false;
+    runner_.each(std::min<std::size_t>(2, samples_), [&](std::size_t k) {
+      const auto run = run_one(scenario_, options_.first_seed + k);
+      if (run && run->completed) completes = true;
+      return run.has_value();
+    });
+    const std::size_t fits = runner_.fitting(careful * options_.seconds_left().value_or(0));
+    std::size_t changes = 1;
+    for (const Knob& knob : knobs_) {
+      for (const auto& level : knob.levels) changes += level ? 1U : 0U;
+    }
+    const std::size_t pairs = pairs_of_ < 2 ? 0 : pairs_of_ * (pairs_of_ - 1) / 2;
+    if ((changes + pairs) * samples_ <= fits) return;
+    report_.was_fitted = true;
+    pairs_of_ = 0;
+    samples_ = std::clamp(fits / changes, std::min(least_samples, samples_), samples_);
+    const std::size_t all = changes * samples_;
+    if (all <= fits || completes) return;
+    const double part = static_cast<double>(fits) / static_cast<double>(all);
+    const double limit = static_cast<double>(scenario_.time_limit.count());
+    const model::Nanoseconds cut{std::llround(part * limit)};
+    report_.cut_at =
+        std::min(scenario_.time_limit, std::max(cut, exact::late_limit(scenario_.limits)));
+  }
+
   /// Every sample of every scenario; sample by sample, so that a study that is stopped knows
   /// something of every change.
   std::vector<Outcomes> run_all(const std::vector<const Scenario*>& scenarios) {
     const std::size_t count = scenarios.size();
-    auto by_job = runner_.run(count * options_.samples, [&](std::size_t job) {
+    auto by_job = runner_.run(count * samples_, [&](std::size_t job) {
       return run_one(*scenarios[job % count], options_.first_seed + job / count);
     });
     std::vector<Outcomes> outcomes(count);
@@ -84,7 +123,9 @@ class Study {
   }
 
   std::optional<Outcome> run_one(const Scenario& scenario, std::uint64_t seed) {
-    const auto run = runner_.simulate(trials::under_seed(scenario, seed, options_.start_jitter));
+    Scenario drawn = trials::under_seed(scenario, seed, options_.start_jitter);
+    if (report_.cut_at) drawn.time_limit = std::min(drawn.time_limit, *report_.cut_at);
+    const auto run = runner_.simulate(drawn);
     if (!run) return std::nullopt;
     return Outcome{
         {statistics::completion_ns(run->discovery_time), static_cast<double>(run->counts.total())},
@@ -113,7 +154,7 @@ class Study {
   /// one; changes without it are then left out.
   void keep_complete_samples() {
     std::size_t complete = 0;
-    while (complete < options_.samples && std::ranges::all_of(singles_, [&](const Outcomes& o) {
+    while (complete < samples_ && std::ranges::all_of(singles_, [&](const Outcomes& o) {
              return o[complete].has_value();
            })) {
       ++complete;
@@ -163,7 +204,7 @@ class Study {
   void run_pairs() {
     std::vector<PairResult> pairs;
     std::vector<Scenario> changed;
-    const std::size_t first = std::min(options_.pairs_of, report_.knobs.size());
+    const std::size_t first = std::min(pairs_of_, report_.knobs.size());
     for (std::size_t a = 0; a < first; ++a) {
       for (std::size_t b = a + 1; b < first; ++b) {
         const KnobResult& one = report_.knobs[a];
@@ -199,6 +240,7 @@ class Study {
 
   const Scenario& scenario_;
   const Options& options_;
+  std::size_t samples_, pairs_of_;
   trials::Runner runner_;
   const std::vector<Knob> knobs_;
   std::vector<Outcomes> singles_;  // the unchanged scenario, then each level of each knob

@@ -47,6 +47,11 @@ std::size_t Runner::fitting(double seconds) const {
   return static_cast<std::size_t>(std::clamp(fit, 1.0, 1e9));
 }
 
+void Runner::forget_pace() {
+  ran_ = 0;
+  worked_ = {};
+}
+
 /// Under the lock.
 bool Runner::report() {
   if (!stopped_ && on_progress_ && !on_progress_(finished_, all_)) stopped_ = true;

@@ -41,7 +41,8 @@ std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::s
   for (const auto& monitor : run.monitors) {
     if (monitor->violation()) outcome.broken.push_back(monitor->property());
   }
-  if (quiet_too) {
+  const bool is_cut = !outcome.completion && limit < scenario.time_limit;
+  if (quiet_too && !is_cut) {
     const exact::RunPlan long_plan{scenario, scenario, nullptr, 0, goes_on};
     const exact::ObservedRun quiet = exact::run_until_quiet(long_plan);
     if (goes_on && !goes_on()) return std::nullopt;

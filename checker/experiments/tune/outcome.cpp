@@ -10,6 +10,13 @@
 
 namespace stormproof::tune {
 
+namespace {
+
+/// Settings whose runs are made at once where they may be cut.
+constexpr std::size_t portion = 16;
+
+}  // namespace
+
 Cost cost_of(std::span<const Outcome> outcomes) {
   if (outcomes.empty()) return {};
   std::vector<double> completion;
@@ -31,43 +38,65 @@ std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes) {
   return {ids.begin(), ids.end()};
 }
 
-Archive::Archive(const Problem& problem, model::Nanoseconds limit, trials::Runner& runner)
-    : problem_{problem}, limit_{limit}, runner_{runner} {}
+Archive::Archive(const Problem& problem, trials::Patience patience, trials::Runner& runner)
+    : problem_{problem},
+      patience_{patience},
+      whole_{patience.limit()},
+      watched_until_{patience.limit()},
+      runner_{runner} {}
 
 bool Archive::extend(const std::vector<Point>& points, Seeds seeds) {
-  struct Job {
-    const Point* point;
-    std::uint64_t seed;
-  };
-  std::vector<Job> jobs;
-  std::set<Point> distinct;
+  std::vector<const Point*> distinct;
+  std::set<Point> seen;
   for (const Point& point : points) {
-    if (!distinct.insert(point).second) continue;
-    const std::map<std::uint64_t, Outcome>& known = outcomes_[point];
-    for (std::size_t k = 0; k < seeds.count; ++k) {
-      if (!known.contains(seeds.first + k)) jobs.push_back({&point, seeds.first + k});
-    }
+    if (seen.insert(point).second) distinct.push_back(&point);
   }
   if (!runner_.goes_on()) return false;
-  auto results = runner_.run(jobs.size(), [&](std::size_t k) {
-    return problem_.run(*jobs[k].point, jobs[k].seed, limit_);
-  });
-  for (std::size_t k = 0; k < jobs.size(); ++k) {
-    if (!results[k]) continue;
-    outcomes_[*jobs[k].point].emplace(jobs[k].seed, *std::move(results[k]));
-    ++runs_;
+  // Each portion has settings from everywhere in the list.
+  const std::size_t portions = patience_.may_cut() ? (distinct.size() + portion - 1) / portion : 1;
+  for (std::size_t first = 0; first < portions && !runner_.stopped(); ++first) {
+    std::vector<Job> jobs;
+    std::vector<const Point*> here;
+    for (std::size_t k = first; k < distinct.size(); k += portions) {
+      here.push_back(distinct[k]);
+      const std::map<std::uint64_t, Outcome>& known = outcomes_[*distinct[k]];
+      for (std::size_t s = 0; s < seeds.count; ++s) {
+        if (!known.contains(seeds.first + s)) jobs.push_back({distinct[k], seeds.first + s});
+      }
+    }
+    run(jobs);
+    if (!patience_.may_cut() || runner_.stopped()) continue;
+    for (const Point* point : here) {
+      const std::vector<Outcome> all = outcomes(*point, seeds);
+      if (broken_in(all).empty()) patience_.see(cost_of(all).completion, trials::beside_best);
+    }
   }
   return !runner_.stopped();
 }
 
+void Archive::run(std::span<const Job> jobs) {
+  const model::Nanoseconds limit = patience_.limit();
+  auto results = runner_.run(jobs.size(), [&](std::size_t k) {
+    return problem_.run(*jobs[k].point, jobs[k].seed, limit);
+  });
+  for (std::size_t k = 0; k < jobs.size(); ++k) {
+    if (!results[k]) continue;
+    results[k]->cut = !results[k]->completion && limit < whole_;
+    if (results[k]->cut) ++cuts_;
+    outcomes_[*jobs[k].point].emplace(jobs[k].seed, *std::move(results[k]));
+    ++runs_;
+  }
+}
+
 bool Archive::watch(const std::vector<Point>& points, Seeds seeds) {
   if (!problem_.watch) return true;
-  struct Job {
+  const model::Nanoseconds limit = std::min(patience_.limit(), watched_until_);
+  struct Watched {
     const Point* point;
     std::uint64_t seed;
     Outcome* outcome;
   };
-  std::vector<Job> jobs;
+  std::vector<Watched> jobs;
   const std::set<Point> distinct{points.begin(), points.end()};
   for (const Point& point : distinct) {
     for (auto& [seed, outcome] : outcomes_[point]) {
@@ -77,7 +106,7 @@ bool Archive::watch(const std::vector<Point>& points, Seeds seeds) {
   }
   if (!runner_.goes_on()) return false;
   const auto results = runner_.run(jobs.size(), [&](std::size_t k) {
-    return problem_.watch(*jobs[k].point, jobs[k].seed, limit_);
+    return problem_.watch(*jobs[k].point, jobs[k].seed, limit);
   });
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     if (!results[k]) continue;

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/experiments/trials/patience.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "checker/experiments/tune/pareto.hpp"
 #include "checker/experiments/tune/space.hpp"
@@ -25,6 +26,8 @@ namespace stormproof::tune {
 struct Outcome {
   std::optional<model::Nanoseconds> completion;  ///< absent: not complete within the limit
   double missing = 0;  ///< share of the descriptors that had not arrived then; 0 if complete
+  bool cut =
+      false;  ///< it was not simulated to its end: `missing` and `counts` are those until then
   model::Counts counts;
   std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
                                          ///< do not, ascending
@@ -58,11 +61,13 @@ struct Seeds {
 /// Ids that break in any of the runs, ascending.
 [[nodiscard]] std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes);
 
-/// Every run that was made, so that none is made twice. All runs have the same limit.
+/// Every run that was made, so that none is made twice. With patience they are made in portions,
+/// and what the settings of one take is what those of the next are cut by: the same on any number
+/// of threads.
 class Archive {
  public:
   /// `problem` and `runner` must outlive this.
-  Archive(const Problem& problem, model::Nanoseconds limit, trials::Runner& runner);
+  Archive(const Problem& problem, trials::Patience patience, trials::Runner& runner);
 
   /// Makes the runs that `points` lack under `seeds`; false if they were interrupted.
   bool extend(const std::vector<Point>& points, Seeds seeds);
@@ -80,13 +85,26 @@ class Archive {
   [[nodiscard]] std::size_t runs() const { return runs_; }
   /// Settings of which at least one run is known.
   [[nodiscard]] std::size_t settings() const;
-  [[nodiscard]] model::Nanoseconds limit() const { return limit_; }
+  /// Of the next run.
+  [[nodiscard]] model::Nanoseconds limit() const { return patience_.limit(); }
+  /// Runs that were cut.
+  [[nodiscard]] std::size_t cuts() const { return cuts_; }
+  /// Nothing that is watched from now on is followed for longer.
+  void watch_until(model::Nanoseconds limit) { watched_until_ = limit; }
 
  private:
+  struct Job {
+    const Point* point;
+    std::uint64_t seed;
+  };
+  void run(std::span<const Job> jobs);
+
   const Problem& problem_;
-  model::Nanoseconds limit_;
+  trials::Patience patience_;
+  const model::Nanoseconds whole_;  ///< what is not cut is simulated until then
+  model::Nanoseconds watched_until_;
   trials::Runner& runner_;
-  std::size_t runs_ = 0;
+  std::size_t runs_ = 0, cuts_ = 0;
   std::map<Point, std::map<std::uint64_t, Outcome>> outcomes_;
 };
 

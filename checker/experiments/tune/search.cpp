@@ -3,6 +3,7 @@
 #include "checker/experiments/tune/search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <random>
@@ -61,7 +62,8 @@ class Search {
 
  private:
   [[nodiscard]] double used() const {
-    return static_cast<double>(archive_.runs()) / static_cast<double>(options_.budget);
+    const double runs = static_cast<double>(archive_.runs()) / static_cast<double>(options_.budget);
+    return options_.time_used ? std::max(runs, options_.time_used()) : runs;
   }
 
   [[nodiscard]] Seeds seeds(std::size_t count) const { return {options_.seeds.first, count}; }
@@ -231,6 +233,9 @@ class Search {
     for (const Point& point : candidates) {
       const std::vector<Outcome> outcomes = archive_.outcomes(point, basis);
       if (outcomes.size() < basis.count || !broken_in(outcomes).empty()) continue;
+      // Of what was cut nothing is known that another could be held against.
+      if (std::ranges::any_of(outcomes, &Outcome::cut) && std::isinf(cost_of(outcomes).completion))
+        continue;
       kept.push_back(point);
       costs.push_back(archive_.cost(point, basis));
     }

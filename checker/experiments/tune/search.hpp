@@ -5,6 +5,7 @@
 // the seed, not on the number of threads.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -16,6 +17,8 @@ struct SearchOptions {
   std::size_t budget = 1'200;  ///< runs; the last generation may exceed it a little
   Seeds seeds{0, 12};          ///< what a setting is run under
   std::uint64_t random = 0;    ///< seed of the search's own choices
+  /// Which part of the time that the search may take is over; empty: the budget alone ends it.
+  std::function<double()> time_used{};
 };
 
 struct SearchResult {

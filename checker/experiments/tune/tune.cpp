@@ -2,11 +2,12 @@
 #include "checker/experiments/tune/tune.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "checker/engines/exact/storm.hpp"
+#include "checker/experiments/trials/patience.hpp"
 #include "checker/experiments/trials/under_seed.hpp"
 #include "checker/experiments/tune/comparison.hpp"
 #include "checker/experiments/tune/model_runs.hpp"
@@ -35,9 +36,12 @@ constexpr std::size_t least_samples = 6;
 constexpr double careful = 0.7;
 /// Distance between the sets of seeds.
 constexpr std::uint64_t next_seeds = 1'000'000;
-/// A run of the search may take so many times as long as an unchanged one (median). A setting whose
-/// median is beyond that is not wanted, and storms are what takes long to run.
-constexpr double patience = 2;
+/// Of the time that is left, what the search may take where its runs may be cut.
+constexpr double search_part = 0.5;
+/// A run that is cut takes no less than such a part of the others.
+constexpr std::size_t most_gained = 16;
+/// Where there is little time, the unchanged setting is watched for so many times what is late.
+constexpr std::int64_t watched_late = 10;
 
 std::vector<std::string_view> known_ids(const Scenario& scenario) {
   std::vector<std::string_view> ids = props::monitored_properties(scenario);
@@ -130,10 +134,12 @@ class Study {
     }
     share_out();
     report_.budget = options_.budget;
+    report_.compared_until = scenario().time_limit;
     about_ = all_runs();
     Archive archive{problem_, scenario().time_limit, runner_};
     const std::vector<Point> unchanged{report_.space.unchanged()};
     if (!archive.extend(unchanged, report_.searched)) return false;
+    if (seconds_left()) archive.watch_until(late() * watched_late);
     if (!archive.watch(unchanged, report_.searched)) return false;
     const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
     if (options_.keep.empty()) {
@@ -144,43 +150,67 @@ class Study {
       share_out();
     }
     for (const std::string_view id : watched_) report_.kept.emplace_back(id);
-    const double median = cost_of(outcomes).completion;
-    const double limit = static_cast<double>(scenario().time_limit.count());
-    report_.search_limit = Nanoseconds{std::llround(std::clamp(patience * median, 1.0, limit))};
-    fit_into_time();
+    trials::Patience patience{scenario().time_limit, Nanoseconds{1}};
+    patience.see(cost_of(outcomes).completion, trials::beside_unchanged);
+    report_.search_limit = patience.limit();
+    // Where runs of the search are cut, those until now say little of them: its time ends it.
+    if (may_cut()) {
+      if (const auto left = seconds_left()) {
+        report_.budget = std::min(report_.budget, most_gained * runner_.fitting(careful * *left));
+        report_.was_fitted = report_.budget < options_.budget;
+      }
+      runner_.forget_pace();
+    } else {
+      fit_into_time();
+    }
     return true;
   }
 
+  [[nodiscard]] std::optional<double> seconds_left() const {
+    return options_.seconds_left ? options_.seconds_left() : std::nullopt;
+  }
+  [[nodiscard]] Nanoseconds late() const { return exact::late_limit(scenario().limits); }
+  /// Whether runs of the search that take long are cut: those of storms.
+  [[nodiscard]] bool may_cut() const { return report_.search_limit > late(); }
+
   /// About how many runs there will be.
   [[nodiscard]] std::size_t all_runs() const {
-    return report_.budget + 10 * shown_ * report_.chosen.count +
+    return (is_searched_ ? 0 : report_.budget) + 10 * shown_ * report_.chosen.count +
            (shown_ + 3) * report_.compared.count;
   }
 
   /// Fewer runs if there is no time for all: first of each setting, then of the search, then
   /// settings of the front.
   void fit_into_time() {
-    const auto left = options_.seconds_left ? options_.seconds_left() : std::nullopt;
+    const auto left = seconds_left();
     if (!left) return;
     const std::size_t fits = runner_.fitting(careful * *left);
     const auto lower = [&](std::size_t& number, std::size_t least) {
       while (all_runs() > fits && number > least) number = std::max(least, number * 3 / 4);
     };
-    report_.was_fitted = all_runs() > fits;
+    report_.was_fitted = report_.was_fitted || all_runs() > fits;
     lower(report_.chosen.count, std::min<std::size_t>(search_samples, report_.chosen.count));
     report_.compared.count = std::min(report_.compared.count, report_.chosen.count);
-    lower(report_.budget, std::min<std::size_t>(200, options_.budget));
+    if (!is_searched_) lower(report_.budget, std::min<std::size_t>(200, options_.budget));
     lower(report_.chosen.count, std::min(least_samples, report_.chosen.count));
     report_.compared.count = report_.chosen.count;
     lower(shown_, 1);
-    lower(report_.budget, std::min<std::size_t>(25, options_.budget));
+    if (!is_searched_) lower(report_.budget, std::min<std::size_t>(25, options_.budget));
     about_ = all_runs();
   }
 
   bool search_and_choose() {
     doing_ = "search";
-    Archive archive{problem_, report_.search_limit, runner_};
-    report_.found = search(problem_, archive, {report_.budget, report_.searched, options_.seed});
+    Archive archive{problem_, {report_.search_limit, late()}, runner_};
+    SearchOptions options{report_.budget, report_.searched, options_.seed};
+    if (const auto left = seconds_left(); left && may_cut()) {
+      options.time_used = [this, left] {
+        return (*left - seconds_left().value_or(0)) / (search_part * *left);
+      };
+    }
+    report_.found = search(problem_, archive, options);
+    report_.cuts = archive.cuts();
+    report_.cut_at = archive.limit();
     const auto keep_what_is_known = [&](const std::vector<Point>& front, Seeds basis) {
       report_.settings = archive.settings();
       report_.basis = basis;
@@ -194,6 +224,14 @@ class Study {
     choice_ = front_.empty() ? problem_.space.unchanged() : front_.front();
     if (!report_.found.finished) return false;
 
+    if (may_cut()) {
+      is_searched_ = true;
+      if (archive.runs() < report_.budget) {
+        report_.was_fitted = true;
+        report_.budget = archive.runs();
+      }
+      fit_into_time();
+    }
     doing_ = "reduction";
     const std::vector<Point> spread = spread_front(archive, report_.found.front, report_.searched);
     const auto reduced =
@@ -272,10 +310,11 @@ class Study {
     doing_ = "comparison";
     std::vector<Row> rows = rows_of(subject_, report_.space, front_, choice_);
     about_ = runner_.finished() + rows.size() * report_.compared.count;
+    if (report_.was_fitted && report_.cuts > 0) report_.compared_until = report_.cut_at;
     const std::size_t samples = report_.compared.count;
     auto outcomes = runner_.run(rows.size() * samples, [&](std::size_t k) {
       return run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
-                       scenario().time_limit, watched_);
+                       report_.compared_until, watched_);
     });
     if (runner_.stopped()) return;
     std::vector<std::vector<Outcome>> by_row(rows.size());
@@ -307,6 +346,7 @@ class Study {
   std::size_t about_ = 0;
   std::size_t shown_ = most_shown;
   trials::Runner runner_;
+  bool is_searched_ = false;
   bool finished_ = false;
   Report report_;
 };

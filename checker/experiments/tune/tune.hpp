@@ -88,8 +88,12 @@ struct Report {
   std::size_t dropped = 0;  ///< settings of the front that others dominate under new seeds, or
                             ///< that break something there
   model::Nanoseconds search_limit;  ///< simulated time that a run of the search may take
-  std::vector<Cost> tried;          ///< of all settings that the search ran under all its seeds
-  std::vector<Row> rows;            ///< unchanged, the front by completion, comparisons
+  /// Runs of the search that were cut before that, and when the last of them were.
+  std::size_t cuts = 0;
+  model::Nanoseconds cut_at;
+  model::Nanoseconds compared_until;  ///< simulated time of a run of the rows
+  std::vector<Cost> tried;            ///< of all settings that the search ran under all its seeds
+  std::vector<Row> rows;              ///< unchanged, the front by completion, comparisons
   std::optional<std::size_t> recommended;  ///< position in `rows`
   Seeds basis;                             ///< what the rows' numbers come from
 };

@@ -308,6 +308,16 @@ class Builder {
           report::grouped(report_.budget), report_.chosen.count,
           report::grouped(context_.options.budget), context_.options.samples);
     }
+    if (report_.cuts > 0) {
+      text += fmt::format(
+          "; {} runs of the search were cut, the last ones at {}, {:g} times what the best setting "
+          "until then took: they take at least that long, and count as not complete",
+          report::grouped(report_.cuts), report::duration(report_.cut_at), trials::beside_best);
+    }
+    if (report_.compared_until < context_.subject.scenario.time_limit) {
+      text += fmt::format("; runs of the table are cut at {}, too",
+                          report::duration(report_.compared_until));
+    }
     if (report_.chosen.count > statistics::fewest_pairs(early_confidence)) {
       text += "; what was clearly worse after a part of its runs was not set back, and had no more";
     }

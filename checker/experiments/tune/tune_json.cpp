@@ -144,6 +144,9 @@ void describe(V& v, const ReportInContext& shown) {
   v("wanted", report.basis.count);
   v("runs", report.runs);
   v("fitted_into_time", report.was_fitted);
+  v("cut_runs", report.cuts);
+  v("cut_at_ns", report.cut_at);
+  v("compared_until_ns", report.compared_until);
   v("tried", report.settings);
   v("rejected", report.found.rejected);
   v("rejected_by", report.found.rejected_by);

@@ -206,6 +206,29 @@ TEST(SensitivityStudy, StoppedSamplesAreFewerSamples) {
   }
 }
 
+/// What does not complete is cut for all if there is no time; what completes is not.
+TEST(SensitivityStudy, WhatThereIsNoTimeForIsCutAndSaid) {
+  Options options = jittered();
+  options.samples = 40;
+  options.seconds_left = [] { return std::optional{0.0}; };
+  const Report whole = analyse(wired(), options);
+  EXPECT_TRUE(whole.was_fitted);
+  EXPECT_EQ(whole.samples, 6U);
+  EXPECT_TRUE(whole.pairs.empty());
+  EXPECT_FALSE(whole.cut_at);
+  const model::Scenario endless = scenario_with({"wireless=wired", "wireless.one_way=30s"});
+  const Report cut = analyse(endless, options);
+  ASSERT_TRUE(cut.cut_at);
+  EXPECT_LT(*cut.cut_at, endless.time_limit);
+  EXPECT_EQ(cut.incomplete, cut.samples);
+  const std::string text = report::to_text(document_of(cut, description_of(options)));
+  EXPECT_NE(text.find("to keep to --time each change had 6 runs where 40"), std::string::npos);
+  EXPECT_NE(text.find("all were cut at"), std::string::npos);
+  options.seconds_left = [] { return std::optional{1e9}; };
+  options.samples = 2;
+  EXPECT_FALSE(analyse(endless, options).was_fitted);
+}
+
 TEST(SensitivityStudy, NothingIsKnownWithoutTheUnchangedRun) {
   Options options;
   options.on_progress = [](std::size_t, std::size_t) { return false; };

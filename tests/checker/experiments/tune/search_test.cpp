@@ -72,6 +72,59 @@ TEST(TuneSearch, SpreadsOverAFront) {
   for (const Point& point : result.front) EXPECT_LE(point[1], 60);
 }
 
+/// Storms beyond a valley; how long each run was simulated is added up.
+struct Storms {
+  Problem problem = problem_of(space_of_knobs(4, 0), planted, 0.1);
+  std::atomic<std::int64_t> simulated = 0;
+
+  Storms() {
+    problem.run = [this, whole = problem.run](const Point& point, std::uint64_t seed,
+                                              model::Nanoseconds limit) {
+      auto outcome = whole(point, seed, limit);
+      const bool storms = point[2] < 300;
+      if (storms || *outcome->completion > limit) outcome->completion.reset();
+      simulated += outcome->completion.value_or(limit).count();
+      return outcome;
+    };
+  }
+  SearchResult search(trials::Patience patience, std::size_t threads, std::size_t* cuts = nullptr) {
+    trials::Runner runner{threads};
+    Archive archive{problem, patience, runner};
+    const SearchResult result = tune::search(problem, archive, {1'500, {0, 12}, 1});
+    if (cuts != nullptr) *cuts = archive.cuts();
+    return result;
+  }
+};
+
+constexpr model::Nanoseconds long_limit{60'000'000'000};
+constexpr model::Nanoseconds late{1'000'000};
+
+TEST(TuneSearch, StormsAreCutByWhatTheBestTakes) {
+  Storms whole;
+  const SearchResult full = whole.search(long_limit, 1);
+  Storms cut;
+  std::size_t cuts = 0;
+  const SearchResult raced = cut.search({long_limit, late}, 1, &cuts);
+  EXPECT_GT(cuts, 0U);
+  EXPECT_LT(cut.simulated, whole.simulated / 5);
+  ASSERT_FALSE(full.front.empty());
+  ASSERT_FALSE(raced.front.empty());
+  EXPECT_LT(planted(raced.front.front()).completion, 1.05 * planted(full.front.front()).completion);
+  for (const Point& point : raced.front) EXPECT_GE(point[2], 300);
+  // Nothing that was cut counts as measured, whoever was faster.
+  EXPECT_EQ(cut.search({long_limit, late}, 4).front, raced.front);
+}
+
+TEST(TuneSearch, ItsTimeEndsIt) {
+  const Problem problem = problem_of(space_of_knobs(4, 0), planted, 0.2);
+  SearchOptions options{100'000, {0, 12}, 5};
+  std::size_t asked = 0;
+  options.time_used = [&asked] { return static_cast<double>(++asked) / 20; };
+  const SearchResult result = search_in(problem, 1, options);
+  EXPECT_TRUE(result.finished);
+  EXPECT_LT(result.generations, 20U);
+}
+
 TEST(TuneSearch, DoesNotDependOnThreads) {
   const Problem problem = problem_of(space_of_knobs(4, 0), planted, 0.2);
   const SearchResult one = search_in(problem, 1, {800, {0, 12}, 5});

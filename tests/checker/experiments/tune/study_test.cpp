@@ -1,5 +1,6 @@
 // Whole studies of small scenarios, and the reports about them.
 #include <algorithm>
+#include <chrono>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -202,7 +203,11 @@ TEST(TuneStudy, WhatThereIsNoTimeForIsNotAskedFor) {
   Options options = few_runs();
   options.budget = 100'000;
   options.samples = 1'000;
-  options.seconds_left = [] { return std::optional{1.0}; };
+  const auto started = std::chrono::steady_clock::now();
+  options.seconds_left = [started] {
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;
+    return std::optional{std::max(1.0 - passed.count(), 0.0)};
+  };
   const Report report = study(subject, options);
   EXPECT_TRUE(report.was_fitted);
   EXPECT_NE(report.answer, Answer::interrupted);
