@@ -128,7 +128,9 @@ void declare_ranges(Options& options, FuzzArguments& arguments) {
   options.text("--timers", arguments.timers,
                "Periods and delays of the DDS profile vary by so much", "RATIO");
   options.texts("--vary", arguments.vary,
-                "Draw a numeric knob of a profile from a range (repeatable)", "KEY=LO..HI");
+                "Draw a numeric knob of a profile from a range, or how far apart processes start: "
+                "deployment.launch (repeatable)",
+                "KEY=LO..HI");
 }
 
 void declare(Options& options, FuzzArguments& arguments) {

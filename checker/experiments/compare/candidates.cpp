@@ -60,6 +60,7 @@ class Kitchen {
   void cook() {
     for (const Recipe& recipe : recipes()) all_.list.push_back(read(recipe));
     mark_own();
+    add_all_at_once();
   }
 
  private:
@@ -194,6 +195,23 @@ class Kitchen {
     first.wireless = all_.scenario.wireless;
     first.is_own = true;
     all_.list.insert(all_.list.begin(), std::move(first));
+  }
+
+  /// Where starts are spread, what the scenario says with all started at once.
+  void add_all_at_once() {
+    const launch::Plan together{launch::Order::at_once};
+    const model::Deployment& deployment = all_.scenario.deployment;
+    if (!launch::can_vary(deployment) || launch::plan_of(deployment) == together) return;
+    const auto own = std::ranges::find_if(all_.list, &Candidate::is_own);
+    Candidate made = *own;
+    made.id = "all-at-once";
+    made.name = "all at once";
+    made.change =
+        "all processes start at once, instead of " + launch::words_of(launch::plan_of(deployment));
+    made.measured.clear();
+    made.plan = together;
+    made.is_own = false;
+    all_.list.insert(own + 1, std::move(made));
   }
 
   const std::string& reference_;

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "checker/experiments/compare/grown.hpp"
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/config/tree/result.hpp"
 #include "model/scenario.hpp"
@@ -29,10 +31,11 @@ struct Candidate {
   model::DdsProfile dds;
   model::WirelessProfile wireless;  ///< with this implementation
   Placement placement{};
-  bool asks_every_port = false;  ///< static peers: as many ports as a host has participants
-  bool is_own = false;           ///< it is what the scenario says
-  std::string note;              ///< on what differs from what a user may expect; may be empty
-  std::string skipped;           ///< why there are no runs of it; empty: there are
+  bool asks_every_port = false;      ///< static peers: as many ports as a host has participants
+  std::optional<launch::Plan> plan;  ///< that its processes are started by; absent: the scenario's
+  bool is_own = false;               ///< it is what the scenario says
+  std::string note;                  ///< on what differs from what a user may expect; may be empty
+  std::string skipped;               ///< why there are no runs of it; empty: there are
 };
 
 /// What the scenario is, and what it is compared with.

@@ -171,8 +171,9 @@ class Comparison {
       for (std::size_t s = 0; s < report_.samples; ++s) jobs.push_back({k, request_.seed + s});
     }
     auto runs = runner_.run(jobs.size(), [&](std::size_t k) {
-      return trials::sample_run(runner_, instances[jobs[k].row].scenario, jobs[k].seed,
-                                request_.start_jitter);
+      const std::size_t row = jobs[k].row;
+      return trials::sample_run(runner_, instances[row].scenario, jobs[k].seed,
+                                request_.start_jitter, report_.rows[row].candidate.plan);
     });
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (runs[k]) report_.rows[jobs[k].row].cells[at].runs.push_back(*std::move(runs[k]));

@@ -88,7 +88,9 @@ Result<std::vector<DeploymentFile>> deployment_files(const Candidate& candidate,
                                                      const DdsProfile& dds, const SpecPath& specs) {
   std::vector<DeploymentFile> files;
   const auto whose = vendor::vendor_of_preset(candidate.profile);
-  if (!candidate.skipped.empty() || !whose || candidate.id == "as-it-is") return files;
+  if (!candidate.skipped.empty() || !whose || candidate.plan || candidate.id == "as-it-is") {
+    return files;
+  }
   const std::string environment = candidate.id + ".env";
   const std::string xml_name = candidate.id + ".xml";
   const bool is_super = dds.discovery == Discovery::super_client;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "model/config/tree/quantities.hpp"
 #include "model/config/tree/suggestion.hpp"
 
@@ -47,6 +48,16 @@ std::vector<NumericKnob> select(const model::Scenario& scenario, auto&& wanted) 
   return knobs;
 }
 
+/// The step of a launch plan, as if it were a knob.
+NumericKnob spread() {
+  constexpr std::int64_t longest = 3'600'000'000'000;
+  NumericKnob knob;
+  knob.key = launch::plan_key;
+  knob.unit = NumericKnob::Unit::nanoseconds;
+  knob.maximum = longest;
+  return knob;
+}
+
 std::string percent(const model::Ratio& ratio) { return fmt::format("{} %", 100 * ratio.value()); }
 
 }  // namespace
@@ -68,8 +79,9 @@ Result<KnobRange> parse_knob_range(const std::string& text, const model::Scenari
     return wrong("is not a range; expected KEY=LOW..HIGH");
   }
   const std::string key = text.substr(0, equals);
-  const std::vector<NumericKnob> knobs = model::config::numeric_knobs(scenario);
-  const auto knob = std::ranges::find(knobs, key, &NumericKnob::key);
+  std::vector<NumericKnob> knobs = model::config::numeric_knobs(scenario);
+  if (launch::can_vary(scenario.deployment)) knobs.push_back(spread());
+  auto knob = std::ranges::find(knobs, key, &NumericKnob::key);
   if (knob == knobs.end()) {
     std::vector<std::string> keys;
     for (const NumericKnob& known : knobs) keys.push_back(known.key);
@@ -167,8 +179,11 @@ std::vector<RangeText> describe(const Ranges& ranges, const model::Scenario& sce
   relative("delays", vary.delays, delay_knobs(scenario).size(), "delays and rates of the network");
   relative("timers", vary.timers, timer_knobs(scenario).size(), "periods and delays of DDS");
   for (const KnobRange& knob : ranges.knobs) {
-    lines.push_back({knob.key, fmt::format("{} to {}", print_quantity(knob.unit, knob.low),
-                                           print_quantity(knob.unit, knob.high))});
+    const bool is_plan = knob.key == launch::plan_key;
+    lines.push_back(
+        {knob.key, fmt::format("{}{} to {}{}", is_plan ? "processes or hosts one by one, " : "",
+                               print_quantity(knob.unit, knob.low),
+                               print_quantity(knob.unit, knob.high), is_plan ? " apart" : "")});
   }
   return lines;
 }

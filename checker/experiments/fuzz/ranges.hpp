@@ -12,7 +12,8 @@
 
 namespace stormproof::fuzz {
 
-/// A numeric knob that takes every value from `low` to `high` with equal probability.
+/// A numeric knob that takes every value from `low` to `high` with equal probability; or, as
+/// launch::plan_key, how far processes or hosts (as often one as the other) start apart.
 struct KnobRange {
   std::string key;
   model::config::NumericKnob::Unit unit{};

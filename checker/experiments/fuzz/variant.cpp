@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "model/life.hpp"
 
 namespace stormproof::fuzz {
@@ -126,7 +127,13 @@ VariantSource::VariantSource(const model::Scenario& base, const Ranges& ranges)
   add_relative(knobs_, size_knobs(base), ranges.vary.sizes);
   add_relative(knobs_, delay_knobs(base), ranges.vary.delays);
   add_relative(knobs_, timer_knobs(base), ranges.vary.timers);
-  knobs_.insert(knobs_.end(), ranges.knobs.begin(), ranges.knobs.end());
+  for (const KnobRange& range : ranges.knobs) {
+    if (range.key == launch::plan_key) {
+      spread_ = range;
+    } else {
+      knobs_.push_back(range);
+    }
+  }
 }
 
 std::optional<Variant> VariantSource::draw(std::uint64_t seed, std::uint64_t number) const {
@@ -137,6 +144,12 @@ std::optional<Variant> VariantSource::draw(std::uint64_t seed, std::uint64_t num
     model::Scenario& scenario = variant.scenario;
     scenario.vary.reset();
     if (ranges_.schedule) scenario.deployment.draw_schedule(random());
+    if (spread_) {
+      const bool is_host = between(random, 0, 1) == 1;
+      const model::Nanoseconds step{between(random, spread_->low, spread_->high)};
+      launch::follow({is_host ? launch::Order::by_host : launch::Order::by_process, step},
+                     base_.deployment, scenario);
+    }
     scenario.deployment.schedule.reset();
     for (model::Participant& participant : scenario.deployment.participants) {
       if (!ranges_.vary.start_jitter) break;

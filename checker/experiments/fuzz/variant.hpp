@@ -34,7 +34,8 @@ class VariantSource {
  private:
   const model::Scenario& base_;
   const Ranges& ranges_;
-  std::vector<KnobRange> knobs_;  ///< relative ranges made absolute, then the stated ones
+  std::vector<KnobRange> knobs_;     ///< relative ranges made absolute, then the stated ones
+  std::optional<KnobRange> spread_;  ///< of the starts
 };
 
 }  // namespace stormproof::fuzz

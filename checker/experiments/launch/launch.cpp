@@ -44,16 +44,10 @@ Scenario only_first(Scenario scenario, const std::vector<std::uint32_t>& starts,
 std::optional<Scenario> planned(trials::Runner& runner, const Scenario& base, const Plan& plan,
                                 std::uint64_t seed, Nanoseconds jitter) {
   Scenario scenario = trials::under_seed(base, seed, jitter);
-  const bool is_drawn = scenario.deployment.schedule.has_value();
-  scenario.deployment.schedule.reset();
-  if (plan.order == Order::deployed) return scenario;
+  follow(plan, base.deployment, scenario);
+  if (!plan.waits()) return scenario;
   const std::vector<std::uint32_t> starts = starts_of(scenario.deployment, plan.order);
   auto& participants = scenario.deployment.participants;
-  for (std::size_t i = 0; i < participants.size(); ++i) {
-    const Nanoseconds own = is_drawn ? Nanoseconds{} : base.deployment.participants[i].start;
-    trials::start_later(participants[i], plan.step * starts[i] - own);
-  }
-  if (!plan.waits()) return scenario;
   for (std::uint32_t wave = 1; wave <= *std::ranges::max_element(starts); ++wave) {
     const Scenario before = only_first(scenario, starts, wave);
     Nanoseconds complete;

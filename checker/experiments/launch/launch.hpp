@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "checker/experiments/launch/plan.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "checker/experiments/trials/sample_runs.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/config/tree/result.hpp"

@@ -120,7 +120,7 @@ std::optional<Level> valid(Level level) {
 
 std::optional<Level> moved(const Scenario& scenario, const DeploymentKnob& knob,
                            Direction direction, double range) {
-  Level level{"", scenario};
+  Level level{"", scenario, {}};
   Deployment& deployment = level.scenario.deployment;
   knob.change(deployment, direction, range);
   if (deployment == scenario.deployment) return std::nullopt;
@@ -134,11 +134,18 @@ std::optional<Level> moved(const Scenario& scenario, const NumericKnob& knob, Di
                            double range) {
   const std::int64_t value =
       std::clamp(stepped(knob.value, direction, range), knob.minimum, knob.maximum);
-  Level level{config::print_quantity(knob.unit, value), scenario};
+  Level level{config::print_quantity(knob.unit, value), scenario, {}};
   if (value == knob.value || !config::set_numeric_knob(level.scenario, knob.key, value)) {
     return std::nullopt;
   }
   return valid(std::move(level));
+}
+
+std::optional<Level> replanned(const Scenario& scenario, Direction direction, double range) {
+  const double factor = direction == Direction::up ? 1 + range : 1 - range;
+  const auto plan = launch::stepped(launch::plan_of(scenario.deployment), factor);
+  if (!plan) return std::nullopt;
+  return Level{launch::words_of(*plan), scenario, *plan};
 }
 
 std::string obstacle_of(const Knob& knob) {
@@ -166,6 +173,18 @@ std::vector<Knob> knobs_of(const Scenario& scenario, double range) {
       add({knob.key, knob.value(scenario.deployment), knob.doc, {}, ""}, knob);
     }
   }
+  if (launch::can_vary(scenario.deployment)) {
+    Knob knob{std::string{launch::plan_key},
+              launch::words_of(launch::plan_of(scenario.deployment)),
+              "when to start which process",
+              {},
+              ""};
+    for (const Direction direction : directions) {
+      knob.levels[static_cast<std::size_t>(direction)] = replanned(scenario, direction, range);
+    }
+    knob.obstacle = obstacle_of(knob);
+    knobs.push_back(std::move(knob));
+  }
   for (const NumericKnob& knob : config::numeric_knobs(scenario)) {
     add({knob.key, config::print_quantity(knob.unit, knob.value), knob.doc, {}, ""}, knob);
   }
@@ -176,6 +195,9 @@ std::optional<Level> moved(const Scenario& scenario, const std::string& key, Dir
                            double range) {
   for (const DeploymentKnob& knob : deployment_knobs) {
     if (key == knob.key && knob.exists(scenario)) return moved(scenario, knob, direction, range);
+  }
+  if (key == launch::plan_key && launch::can_vary(scenario.deployment)) {
+    return replanned(scenario, direction, range);
   }
   for (const NumericKnob& knob : config::numeric_knobs(scenario)) {
     if (key == knob.key) return moved(scenario, knob, direction, range);

@@ -1,6 +1,7 @@
 // What `sensitivity` changes: every number of a scenario, one at a time, by a relative step down
 // and up. A knob of the two profiles is changed as `--set` would; the deployment is changed as a
-// whole: one participant more or fewer on each host, and more or fewer endpoints for all.
+// whole: one participant more or fewer on each host, more or fewer endpoints for all, and starts
+// that are further apart or nearer, as `launch` has them.
 #pragma once
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::sensitivity {
@@ -22,6 +24,7 @@ inline constexpr std::array<Direction, 2> directions{Direction::down, Direction:
 struct Level {
   std::string value;  ///< as a file would say it: "1.2s"
   model::Scenario scenario;
+  std::optional<launch::Plan> plan;  ///< that processes are started by, if that is what is changed
 };
 
 struct Knob {

@@ -85,7 +85,7 @@ class Study {
     if (!options_.seconds_left || !options_.seconds_left()) return;
     std::atomic<bool> completes = false;
     runner_.each(std::min<std::size_t>(2, samples_), [&](std::size_t k) {
-      const auto run = run_one(scenario_, options_.first_seed + k);
+      const auto run = run_one(unchanged_, options_.first_seed + k);
       if (run && run->completed) completes = true;
       return run.has_value();
     });
@@ -110,10 +110,10 @@ class Study {
 
   /// Every sample of every scenario; sample by sample, so that a study that is stopped knows
   /// something of every change.
-  std::vector<Outcomes> run_all(const std::vector<const Scenario*>& scenarios) {
-    const std::size_t count = scenarios.size();
+  std::vector<Outcomes> run_all(const std::vector<const Level*>& levels) {
+    const std::size_t count = levels.size();
     auto by_job = runner_.run(count * samples_, [&](std::size_t job) {
-      return run_one(*scenarios[job % count], options_.first_seed + job / count);
+      return run_one(*levels[job % count], options_.first_seed + job / count);
     });
     std::vector<Outcomes> outcomes(count);
     for (std::size_t job = 0; job < by_job.size(); ++job) {
@@ -122,8 +122,9 @@ class Study {
     return outcomes;
   }
 
-  std::optional<Outcome> run_one(const Scenario& scenario, std::uint64_t seed) {
-    Scenario drawn = trials::under_seed(scenario, seed, options_.start_jitter);
+  std::optional<Outcome> run_one(const Level& level, std::uint64_t seed) {
+    Scenario drawn = trials::under_seed(level.scenario, seed, options_.start_jitter);
+    if (level.plan) launch::follow(*level.plan, level.scenario.deployment, drawn);
     if (report_.cut_at) drawn.time_limit = std::min(drawn.time_limit, *report_.cut_at);
     const auto run = runner_.simulate(drawn);
     if (!run) return std::nullopt;
@@ -133,13 +134,13 @@ class Study {
   }
 
   void run_single_changes() {
-    std::vector<const Scenario*> scenarios{&scenario_};
+    std::vector<const Level*> levels{&unchanged_};
     for (const Knob& knob : knobs_) {
       for (const auto& level : knob.levels) {
-        if (level) scenarios.push_back(&level->scenario);
+        if (level) levels.push_back(&*level);
       }
     }
-    singles_ = run_all(scenarios);
+    singles_ = run_all(levels);
     report_.finished = !runner_.stopped();
     keep_complete_samples();
     if (!all_there(singles_.front())) return;
@@ -203,7 +204,7 @@ class Study {
 
   void run_pairs() {
     std::vector<PairResult> pairs;
-    std::vector<Scenario> changed;
+    std::vector<Level> changed;
     const std::size_t first = std::min(pairs_of_, report_.knobs.size());
     for (std::size_t a = 0; a < first; ++a) {
       for (std::size_t b = a + 1; b < first; ++b) {
@@ -214,13 +215,14 @@ class Study {
         auto whole = half ? moved(half->scenario, other.key, both[1], options_.range)
                           : std::optional<Level>{};
         if (!whole) continue;
+        if (!whole->plan) whole->plan = half->plan;
         pairs.push_back({{one.key, other.key}, both, {}, {}});
-        changed.push_back(std::move(whole->scenario));
+        changed.push_back(*std::move(whole));
       }
     }
-    std::vector<const Scenario*> scenarios;
-    for (const Scenario& scenario : changed) scenarios.push_back(&scenario);
-    const std::vector<Outcomes> outcomes = run_all(scenarios);
+    std::vector<const Level*> levels;
+    for (const Level& level : changed) levels.push_back(&level);
+    const std::vector<Outcomes> outcomes = run_all(levels);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       if (all_there(outcomes[k])) describe(pairs[k], outcomes[k]);
     }
@@ -239,6 +241,7 @@ class Study {
   }
 
   const Scenario& scenario_;
+  const Level unchanged_{"", scenario_, {}};
   const Options& options_;
   std::size_t samples_, pairs_of_;
   trials::Runner runner_;

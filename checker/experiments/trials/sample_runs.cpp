@@ -6,8 +6,10 @@
 namespace stormproof::trials {
 
 std::optional<Sample> sample_run(Runner& runner, const model::Scenario& scenario,
-                                 std::uint64_t seed, model::Nanoseconds start_jitter) {
-  const model::Scenario drawn = under_seed(scenario, seed, start_jitter);
+                                 std::uint64_t seed, model::Nanoseconds start_jitter,
+                                 const std::optional<launch::Plan>& plan) {
+  model::Scenario drawn = under_seed(scenario, seed, start_jitter);
+  if (plan) launch::follow(*plan, scenario.deployment, drawn);
   const auto run = runner.simulate(drawn);
   if (!run) return std::nullopt;
   return Sample{seed,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/engines/exact/health.hpp"
+#include "checker/experiments/trials/launch_plan.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "model/counts.hpp"
 #include "model/run_result.hpp"
@@ -47,9 +48,11 @@ struct SampleOptions {
   Progress on_progress;
 };
 
-/// The run of `scenario` under one seed; nothing if it was stopped.
+/// The run of `scenario` under one seed, started by `plan` if there is one, which must not wait;
+/// nothing if it was stopped.
 [[nodiscard]] std::optional<Sample> sample_run(Runner& runner, const model::Scenario& scenario,
-                                               std::uint64_t seed, model::Nanoseconds start_jitter);
+                                               std::uint64_t seed, model::Nanoseconds start_jitter,
+                                               const std::optional<launch::Plan>& plan = {});
 
 /// The sampled runs in the order of their seeds; those that were stopped are left out. The
 /// deployment must have a schedule or a jitter, or `samples` be 1: then the scenario runs as it is.

@@ -93,6 +93,24 @@ TEST(CompareDiscovery, TheScenariosOwnProfileIsMarkedOrComesFirst) {
   EXPECT_FALSE(row_of(debian, "super-clients").candidate.note.empty());
 }
 
+/// Its starts are those of the scenario without any spread.
+TEST(CompareDiscovery, SpreadStartsAreComparedWithAllAtOnce) {
+  Request request;
+  request.scenario = "fleet-4x2x20";
+  request.sizes = {4};
+  request.limit = model::Nanoseconds{1'000'000'000};
+  const Report report = compared(request);
+  const auto spread =
+      std::ranges::find_if(report.rows, [](const Row& row) { return row.candidate.is_own; });
+  ASSERT_NE(spread, report.rows.end());
+  const Row& together = row_of(report, "all-at-once");
+  EXPECT_EQ(&together, &*spread + 1);
+  EXPECT_EQ(together.candidate.dds, spread->candidate.dds);
+  const std::size_t own = report.own_index();
+  EXPECT_EQ(spread->cells[own].runs.front().health.last_start.count(), 700'000'000);
+  EXPECT_EQ(together.cells[own].runs.front().health.last_start.count(), 0);
+}
+
 TEST(CompareDiscovery, WhatBreaksIsNotRunAtLargerSizes) {
   Request request = request_of({});
   request.sizes = {3, 4};

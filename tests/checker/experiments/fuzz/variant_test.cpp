@@ -130,6 +130,32 @@ TEST(Variants, draw_the_schedule_anew) {
   EXPECT_EQ(starts.size(), 20U);
 }
 
+/// The step is that of a launch plan, of processes and of hosts.
+TEST(Variants, starts_are_spread_within_their_range) {
+  const model::Scenario base = shipped("live-5x20");
+  const auto range = parse_knob_range("deployment.launch=100ms..400ms", base);
+  ASSERT_TRUE(range);
+  const Ranges ranges = ranges_around(base, {*range});
+  EXPECT_EQ(describe(ranges, base).back().text,
+            "processes or hosts one by one, 100ms to 400ms apart");
+  const VariantSource variants{base, ranges};
+  std::size_t hosts = 0;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    const auto variant = variants.draw(3, k);
+    ASSERT_TRUE(variant);
+    const auto& all = variant->scenario.deployment.participants;
+    const std::int64_t between_two = (all[1].start - all[0].start).count();
+    const bool by_host = between_two < 60'000'000;  // what the schedule spreads
+    if (by_host) ++hosts;
+    const std::int64_t whole = (all.back().start - all.front().start).count();
+    const std::int64_t steps = by_host ? 1 : static_cast<std::int64_t>(all.size()) - 1;
+    EXPECT_GE(whole, 100'000'000 * steps - 60'000'000);
+    EXPECT_LE(whole, 400'000'000 * steps + 60'000'000);
+  }
+  EXPECT_GT(hosts, 2U);
+  EXPECT_LT(hosts, 18U);
+}
+
 TEST(Variants, invalid_draws_are_counted_and_repeated) {
   const model::Scenario base = shipped("smallest");
   const Ranges often =

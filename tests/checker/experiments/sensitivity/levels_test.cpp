@@ -107,5 +107,17 @@ TEST(SensitivityLevels, MovedGoesOnTopOfOtherChanges) {
   EXPECT_FALSE(moved(scenario, "no.such.key", Direction::up, 0.2));
 }
 
+/// What starts at once is spread, what is spread is moved.
+TEST(SensitivityLevels, StartsAreSpreadAsLaunchHasThem) {
+  EXPECT_EQ(levels(knob_of(scenario_with({}), "deployment.launch")),
+            "– → process by process, 100ms apart");
+  const model::config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
+  const auto fleet = model::config::read_scenario("fleet-4x2x20", {}, specs);
+  ASSERT_TRUE(fleet);
+  const Knob knob = knob_of(*fleet, "deployment.launch");
+  EXPECT_EQ(knob.value, "process by process, 100ms apart");
+  EXPECT_EQ(levels(knob), "process by process, 80ms apart → process by process, 120ms apart");
+}
+
 }  // namespace levels_test
 }  // namespace stormproof::sensitivity

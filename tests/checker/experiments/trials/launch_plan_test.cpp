@@ -1,5 +1,5 @@
 // Who starts when under each plan, and which plan a deployment follows.
-#include "checker/experiments/launch/plan.hpp"
+#include "checker/experiments/trials/launch_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,6 +28,39 @@ TEST(Plan, SaysWhoStartsWithWhom) {
   EXPECT_EQ(starts_of(deployment, Order::by_host), (Starts{0, 0, 1, 1}));
   EXPECT_EQ(starts_of(deployment, Order::waves), (Starts{0, 0, 1, 1}));
   EXPECT_EQ(starts_of(deployment, Order::late_tool), (Starts{0, 0, 0, 1}));
+}
+
+std::vector<std::int64_t> followed(const Plan& plan, const Deployment& base,
+                                   const std::vector<std::int64_t>& drawn_ms, bool is_drawn) {
+  model::Scenario drawn;
+  drawn.deployment = started_at(drawn_ms);
+  if (is_drawn) drawn.deployment.schedule = model::Schedule{};
+  follow(plan, base, drawn);
+  EXPECT_FALSE(drawn.deployment.schedule);
+  std::vector<std::int64_t> starts;
+  for (const auto& one : drawn.deployment.participants) {
+    starts.push_back(one.start.count() / 1'000'000);
+  }
+  return starts;
+}
+
+/// What a seed adds stays, whatever the plan.
+TEST(Plan, IsFollowedFromWhatTheSeedAdds) {
+  const Deployment spread = started_at({0, 20, 40, 60});
+  using Ms = std::vector<std::int64_t>;
+  EXPECT_EQ(followed({Order::at_once}, spread, {1, 22, 43, 64}, false), (Ms{1, 2, 3, 4}));
+  EXPECT_EQ(followed({Order::by_host, ms(50)}, spread, {1, 22, 43, 64}, false), (Ms{1, 2, 53, 54}));
+  EXPECT_EQ(followed({Order::by_process, ms(10)}, spread, {1, 2, 3, 4}, true), (Ms{1, 12, 23, 34}));
+  EXPECT_EQ(followed({Order::deployed}, spread, {1, 2, 3, 4}, true), (Ms{1, 2, 3, 4}));
+}
+
+TEST(Plan, MovesByAStep) {
+  const Plan by_host{Order::by_host, ms(50)};
+  EXPECT_EQ(stepped(by_host, 1.2), (Plan{Order::by_host, ms(60)}));
+  EXPECT_EQ(stepped(by_host, 0.8), (Plan{Order::by_host, ms(40)}));
+  EXPECT_EQ(stepped({Order::at_once}, 1.2), (Plan{Order::by_process, ms(100)}));
+  EXPECT_FALSE(stepped({Order::at_once}, 0.8));
+  EXPECT_EQ(stepped({Order::deployed}, 0.8), (Plan{Order::at_once}));
 }
 
 TEST(Plan, IsRecognisedInADeployment) {

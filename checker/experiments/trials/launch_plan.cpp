@@ -1,12 +1,14 @@
 // Who starts with whom, and by how much later.
-#include "checker/experiments/launch/plan.hpp"
+#include "checker/experiments/trials/launch_plan.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include <fmt/core.h>
 
+#include "checker/experiments/trials/under_seed.hpp"
 #include "model/config/tree/quantities.hpp"
 
 namespace stormproof::launch {
@@ -36,6 +38,8 @@ std::string words_of(const Plan& plan) {
   }
   return {};
 }
+
+bool can_vary(const Deployment& deployment) { return deployment.size() > 1 && !deployment.life; }
 
 std::vector<std::uint32_t> starts_of(const Deployment& deployment, Order order) {
   std::map<model::HostId, std::uint32_t> hosts;  // in the order of their first participants
@@ -72,6 +76,33 @@ Plan plan_of(const Deployment& deployment) {
     if (step.count() > 0 && follows({order, step})) return {order, step};
   }
   return {Order::deployed};
+}
+
+void follow(const Plan& plan, const Deployment& base, model::Scenario& drawn) {
+  const bool is_drawn = drawn.deployment.schedule.has_value();
+  drawn.deployment.schedule.reset();
+  if (plan.order == Order::deployed) return;
+  const std::vector<std::uint32_t> starts = starts_of(drawn.deployment, plan.order);
+  auto& participants = drawn.deployment.participants;
+  for (std::size_t i = 0; i < participants.size(); ++i) {
+    const Nanoseconds own = is_drawn ? Nanoseconds{} : base.participants[i].start;
+    trials::start_later(participants[i], plan.step * starts[i] - own);
+  }
+}
+
+std::optional<Plan> stepped(const Plan& plan, double factor) {
+  constexpr Nanoseconds usual{100'000'000};
+  switch (plan.order) {
+    case Order::at_once:
+      return factor > 1 ? std::optional{Plan{Order::by_process, usual}} : std::nullopt;
+    case Order::by_process:
+    case Order::by_host: {
+      const Nanoseconds step{std::llround(factor * static_cast<double>(plan.step.count()))};
+      return step == plan.step ? std::nullopt : std::optional{Plan{plan.order, step}};
+    }
+    default:
+      return factor < 1 ? std::optional{Plan{Order::at_once}} : std::nullopt;
+  }
 }
 
 std::vector<Plan> plans_for(const Deployment& deployment, const std::vector<Nanoseconds>& steps,

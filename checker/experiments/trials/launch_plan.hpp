@@ -1,11 +1,15 @@
-// Launch plans: when to start which process of a deployment.
+// Launch plans: when to start which process of a deployment. Every verb that compares them, or has
+// them vary, takes them from here.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/deployment.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::launch {
 
@@ -31,6 +35,11 @@ struct Plan {
 /// "process by process, 100ms apart".
 [[nodiscard]] std::string words_of(const Plan& plan);
 
+/// What a plan is called where it varies beside knobs; it is no key of a file.
+inline constexpr std::string_view plan_key = "deployment.launch";
+/// Whether it can vary: where somebody leaves or comes back, starts are not all that there is.
+[[nodiscard]] bool can_vary(const model::Deployment& deployment);
+
 /// Which start each participant belongs to, from 0 on in the order of the starts.
 [[nodiscard]] std::vector<std::uint32_t> starts_of(const model::Deployment& deployment,
                                                    Order order);
@@ -38,6 +47,15 @@ struct Plan {
 /// The plan that the start times of a deployment follow, or `deployed` if none of those here;
 /// start times that are drawn from a schedule are those of processes that are started at once.
 [[nodiscard]] Plan plan_of(const model::Deployment& deployment);
+
+/// Moves all starts of `drawn`, a scenario under a seed (trials::under_seed), to where the plan has
+/// them: what the seed adds to a start stays. `base`: the deployment before that. Of a plan that
+/// waits all start at once: when a start is complete, only a run tells.
+void follow(const Plan& plan, const model::Deployment& base, model::Scenario& drawn);
+
+/// The plan with its step changed, or what is nearest to that: what starts at once is started 100
+/// ms apart, what follows no plan all at once. Nothing if it is the same plan.
+[[nodiscard]] std::optional<Plan> stepped(const Plan& plan, double factor);
 
 /// The plans to compare: the deployed one first, spreads whose last start is within `limit`.
 [[nodiscard]] std::vector<Plan> plans_for(const model::Deployment& deployment,
