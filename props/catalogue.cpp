@@ -170,6 +170,7 @@ const std::array properties{
         .source = "model.md, repair; fastdds.md, writer",
         .stateful_weakness = "a relation has one suppression timer: what is sent while it is "
                              "pending is suppressed only for the rest of it",
+        .is_of_library = true,
         .clients = Wording{}},
     Property{.id = "live.no-stall",
              .statement = "For every started pair that has recognised each other, or could have, "

@@ -69,6 +69,9 @@ struct Property {
   std::string_view stateful_weakness = {};
   /// It says how far a profile is from a failure. A run beyond that distance has not failed by it.
   bool is_margin = false;
+  /// It says what a library does, whatever surrounds it: no deployment can mend it, and what a run
+  /// shows of it is an answer about the profile.
+  bool is_of_library = false;
   // Where it applies; asked for by `applicability_of` (props/applicability.hpp) only.
   Vocabulary about = Vocabulary::descriptors;
   std::optional<Wording> amended = {};  ///< of the amended rules of the closed-loop model

@@ -234,6 +234,8 @@ struct Policy {
   std::string name;
   /// Each measure at most once.
   std::vector<Tolerance> tolerances{{Measure::completion, 0.25}, {Measure::messages, 0.25}};
+  /// A completion that grows by no more is no regression, however large its share.
+  model::Nanoseconds unnoticed{250'000'000};
   std::optional<model::Limits> limits;  ///< crossing one is a regression
   double limit_share = 0.05;     ///< a limit is kept if at most this share of runs exceeds it
   bool verdicts = true;          ///< a property that newly is violated is a regression

@@ -85,7 +85,17 @@ MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool e
     }
   }
   if (!runs.identical) judge_change(change, relative, runs.size());
+  if (is_unnoticed(change)) change.judgment = Judgment::worse;
   return change;
+}
+
+/// A discovery that is over a moment later is no worse for anybody.
+bool CostJudge::is_unnoticed(const MeasuredChange& change) const {
+  const bool judged =
+      change.judgment == Judgment::regression || change.judgment == Judgment::unclear;
+  if (change.measure != Measure::completion || !judged || !change.shift) return false;
+  const bool sure = change.shift->confidence >= single_confidence_;
+  return sure && change.shift->high <= static_cast<double>(policy_.unnoticed.count());
 }
 
 void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,

@@ -33,6 +33,7 @@ class CostJudge {
   [[nodiscard]] MeasuredChange change(Measure measure, const PairedRuns& runs, bool exact) const;
   /// `relative`: the interval of the relative change, from `runs` pairs.
   void judge_change(MeasuredChange& change, const Shift& relative, std::size_t runs) const;
+  [[nodiscard]] bool is_unnoticed(const MeasuredChange& change) const;
   [[nodiscard]] std::vector<LimitCrossing> crossings(const ReviewedPoint& point,
                                                      const PairedRuns& runs, bool exact) const;
 

@@ -33,12 +33,13 @@ class PolicyReader {
   Result<Policy> read(std::string name) {
     policy_.name = std::move(name);
     const config::KnownKeys keys{
-        {"description", "tolerances", "limits", "limit_share", "verdicts", "margin",
+        {"description", "tolerances", "unnoticed", "limits", "limit_share", "verdicts", "margin",
          "storm_repairs", "confidence", "samples", "most_samples"},
         {}};
     failure_ = config::check_keys(root_, "", keys);
     read_description();
     read_tolerances();
+    read_unnoticed();
     read_limits();
     share("limit_share", policy_.limit_share, 0, 1, "a share from 0 to 1, such as 5 % or 0.05");
     read_verdicts();
@@ -127,6 +128,17 @@ class PolicyReader {
       }
       policy_.tolerances.push_back({static_cast<Measure>(at - known.begin()), *increase});
     }
+  }
+
+  void read_unnoticed() {
+    const Node* node = find("unnoticed");
+    if (node == nullptr) return;
+    const auto parsed =
+        config::parse_duration(node->is_scalar() && !node->quoted ? node->text : "");
+    if (!parsed || *parsed < model::Nanoseconds{}) {
+      return fail(*node, "unnoticed", "a time, such as 250ms");
+    }
+    policy_.unnoticed = *parsed;
   }
 
   void read_limits() {

@@ -49,4 +49,9 @@ std::string ratio_text(std::optional<double> ratio) {
   return size < 0.01 ? fmt::format("{:.3f} ×", *ratio) : fmt::format("{:.2f} ×", *ratio);
 }
 
+std::string distance_text(double points) {
+  if (!std::isfinite(points)) return "–";
+  return std::abs(points) < 0.05 ? "0 pt" : fmt::format("{:+.1f} pt", points);
+}
+
 }  // namespace stormproof::reproduce

@@ -39,5 +39,7 @@ struct Report {
 [[nodiscard]] std::string published_text(const std::vector<double>& values);
 /// "0.97 ×".
 [[nodiscard]] std::string ratio_text(std::optional<double> ratio);
+/// "+25.3 pt", how far two percentages are apart: a ratio of percentages says nothing.
+[[nodiscard]] std::string distance_text(double points);
 
 }  // namespace stormproof::reproduce

@@ -101,6 +101,13 @@ Blocks findings_in_documents(const PropertyResult& result) {
   return blocks;
 }
 
+/// Why the rules do not promise it, and whether this deployment shows what its library does.
+std::string weakness_of(const PropertyResult& result, model::ImplementationKind rules) {
+  std::string text{applicability_of(*result.property, rules).weakness};
+  const bool seen = result.property->is_of_library && result.verdict == VerdictKind::violated;
+  return seen ? text + "; a run of this deployment shows it" : text;
+}
+
 Table::Row row_of(const PropertyResult& result, Standing standing, const CheckContext& context) {
   const std::string id{result.property->id};
   const bool told = result.verdict == VerdictKind::violated && result.counterexample() != nullptr;
@@ -110,8 +117,7 @@ Table::Row row_of(const PropertyResult& result, Standing standing, const CheckCo
   row.cells = {
       possible ? report::badge(report::Tone::info, "possible") : report::badge(result.verdict),
       told ? report::link(id, id) : report::code(id), statement_of(*result.property, rules),
-      possible ? std::string{applicability_of(*result.property, rules).weakness}
-               : sentence_of(result)};
+      possible ? weakness_of(result, rules) : sentence_of(result)};
   if (possible) row.details.emplace_back(Paragraph{sentence_of(result)}, Audience::verbose);
   for (Block& block : findings_at_terminal(result, context)) {
     if (possible && block.audience == Audience::terminal) block.audience = Audience::explained;
@@ -165,7 +171,8 @@ void add_verdicts(report::Document& document, const CheckReport& report,
   if (standing == Standing::possible) {
     section.blocks.emplace_back(
         Paragraph{"Under other delays or losses than those of this deployment it can break, or it "
-                  "is a margin that this deployment exceeds; --strict counts that as a failure."});
+                  "is a margin that this deployment exceeds, or what the library does everywhere; "
+                  "--strict counts that as a failure."});
   }
   section.blocks.emplace_back(std::move(table));
   // At a terminal what holds is a number in the table of questions, unless it was asked for.

@@ -53,9 +53,11 @@ bool is_of_run(const Finding& finding) {
 Reach reach_of(const Property& property, const Finding& finding) {
   if (finding.engine == props::name_of(props::Engine::tables)) return Reach::rules;
   if (finding.engine == props::name_of(props::Engine::calculus)) return Reach::deployment;
-  // A run that keeps a margin says nothing of others; one that does not is a run of the profile.
-  const bool of_profile =
-      property.is_margin && !is_about_deployment(property) && finding.kind == VerdictKind::violated;
+  // A run that keeps a margin says nothing of others; one that does not is a run of the profile. So
+  // is one that shows what a library does.
+  const bool is_of_others =
+      property.is_of_library || (property.is_margin && !is_about_deployment(property));
+  const bool of_profile = is_of_others && finding.kind == VerdictKind::violated;
   return is_of_run(finding) && !of_profile ? Reach::deployment : Reach::profile;
 }
 

@@ -2,7 +2,8 @@
 // (exact runs, network calculus), does it hold for every deployment with this profile up to stated
 // delays and losses (timelines, explorer), and are the rules themselves sound (tables). What the
 // rules are known not to promise, a weakness, fails only where it happens in this deployment;
-// elsewhere it is possible.
+// elsewhere it is possible. So is what a library does in every deployment: it is none of this
+// one's.
 #pragma once
 
 #include <array>

@@ -17,6 +17,7 @@ constexpr double never = std::numeric_limits<double>::infinity();
 Policy policy() {
   Policy policy;
   policy.tolerances = {{Measure::completion, 0.25}, {Measure::messages, 0.25}};
+  policy.unnoticed = model::Nanoseconds{0};
   return policy;
 }
 
@@ -67,6 +68,25 @@ TEST(CostJudge, ClearCases) {
   EXPECT_EQ(completion(runs(24, 1e9, 1e9)), Judgment::same);
   EXPECT_EQ(completion(runs(24, 1e9, 1.13e9)), Judgment::worse);
   EXPECT_EQ(completion(runs(12, 1e9, 1.25e9)), Judgment::unclear);
+}
+
+/// Eight times as long, and nobody waits longer.
+TEST(CostJudge, AMomentIsNoRegression) {
+  Policy patient = policy();
+  patient.unnoticed = Policy{}.unnoticed;
+  const auto judgment = [&](const PairedRuns& pairs, Measure measure) {
+    return judged(pairs, patient)[measure].judgment;
+  };
+  EXPECT_EQ(judgment(runs(12, 15e6, 121e6), Measure::completion), Judgment::worse);
+  EXPECT_EQ(judgment(runs(12, 15e6, 400e6), Measure::completion), Judgment::regression);
+  // Neither are unclear ones unclear; too few runs still are.
+  EXPECT_EQ(judgment(runs(12, 100e6, 125e6), Measure::completion), Judgment::worse);
+  EXPECT_EQ(judgment(runs(3, 15e6, 121e6), Measure::completion), Judgment::unclear);
+  EXPECT_EQ(completion(runs(12, 15e6, 121e6)), Judgment::regression);
+  // Of messages there is no such amount.
+  PairedRuns chatty = runs(12, 15e6, 15e6);
+  for (RunValues& one : chatty.after) one[static_cast<std::size_t>(Measure::messages)] = 200;
+  EXPECT_EQ(judgment(chatty, Measure::messages), Judgment::regression);
 }
 
 TEST(CostJudge, TooFewRunsSettleNothing) {

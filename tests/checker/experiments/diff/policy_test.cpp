@@ -42,6 +42,7 @@ TEST(Policy, DefaultFileSaysWhatAnEmptyOneMeans) {
     EXPECT_EQ(shipped->tolerances[k].measure, empty->tolerances[k].measure);
     EXPECT_EQ(shipped->tolerances[k].increase, empty->tolerances[k].increase);
   }
+  EXPECT_EQ(shipped->unnoticed, empty->unnoticed);
   EXPECT_EQ(shipped->limits, empty->limits);
   EXPECT_EQ(shipped->limit_share, empty->limit_share);
   EXPECT_EQ(shipped->verdicts, empty->verdicts);
@@ -57,6 +58,7 @@ TEST(Policy, StrictIsStricter) {
   ASSERT_TRUE(strict) << to_string(strict.error());
   EXPECT_TRUE(strict->strict_verdicts);
   EXPECT_EQ(strict->limit_share, 0);
+  EXPECT_EQ(strict->unnoticed.count(), 0);
   EXPECT_EQ(strict->tolerances.front().increase, 0.1);
   EXPECT_GT(strict->samples, Policy{}.samples);
 }
@@ -64,7 +66,7 @@ TEST(Policy, StrictIsStricter) {
 TEST(Policy, EveryKeyIsRead) {
   const auto policy = read_policy(
       written("tolerances: {repair_data: 1/4, backlog: 0}\nlimits: {completion: 5s, backlog: 9}\n"
-              "limit_share: 10%\nverdicts: false\nmargin: false\n"
+              "unnoticed: 20ms\nlimit_share: 10%\nverdicts: false\nmargin: false\n"
               "confidence: 0.9\nsamples: 5\nmost_samples: 7\n"),
       specs);
   ASSERT_TRUE(policy) << to_string(policy.error());

@@ -246,6 +246,26 @@ TEST(Numbers, AreWrittenForPeople) {
   EXPECT_EQ(ratio_text(0.0041), "0.004 ×");
   EXPECT_EQ(ratio_text(-1e-9), "0 ×");
   EXPECT_EQ(ratio_text(std::nullopt), "–");
+  EXPECT_EQ(distance_text(25.34), "+25.3 pt");
+  EXPECT_EQ(distance_text(-0.01), "0 pt");
+}
+
+/// The gain of the paper's proposal comes before any count of figures.
+TEST_F(ReportTest, LeadsWithTheMainResult) {
+  const std::string text = report::to_text(document_of(*report_));
+  const std::string answer = text.substr(0, text.find("; "));
+  EXPECT_NE(answer.find("change completion by -39.7 to -25.3 %, published, and by -50.0 to -50.0"),
+            std::string::npos)
+      << answer;
+}
+
+TEST_F(ReportTest, PercentagesDifferByPoints) {
+  const std::string text = report::to_text(document_of(*report_));
+  const std::size_t row = text.find("np1.completion_change_pct");
+  ASSERT_NE(row, std::string::npos);
+  const std::string entry = text.substr(row, text.find("np1.messages", row) - row);
+  EXPECT_NE(entry.find("-24.7 pt"), std::string::npos) << entry;
+  EXPECT_EQ(entry.find("×"), std::string::npos) << entry;
 }
 
 }  // namespace report_test
