@@ -42,10 +42,19 @@ void EventThreads::unmatch(Number r) {
 Destination EventThreads::readers_of(Number w) const {
   const Writer& writer = writers_[w];
   Destination to{.is_set = true, .addresses = {}, .writer = w, .version = writer.version};
-  const auto is_in_group = [&](Number r) { return has_group(ends_of(r).destination); };
-  const bool by_group =
-      has_group(w / stride_) && std::ranges::count_if(writer.readers, is_in_group) > 1;
+  const bool is_mixed = steps_of_.profiles.are_mixed();
+  const bool sends = has_group(w / stride_);
+  const auto is_in_group = [&](Number r) {
+    return is_mixed ? has_group(ends_of(r).destination) : sends;
+  };
+  const std::size_t all = writer.readers.size();
+  std::size_t in_group = sends ? all : 0;
+  if (is_mixed && sends) {
+    in_group = static_cast<std::size_t>(std::ranges::count_if(writer.readers, is_in_group));
+  }
+  const bool by_group = in_group > 1;
   if (by_group) to.addresses.push_back(group);
+  if (by_group && in_group == all) return to;
   for (const Number r : writer.readers) {
     if (!by_group || !is_in_group(r)) to.addresses.push_back(ends_of(r).destination);
   }

@@ -112,5 +112,49 @@ TEST(Server, IsSpokenOfByWhatItsClientsTellIt) {
   }
 }
 
+model::Scenario mixed(model::ImplementationKind implementation) {
+  model::Scenario scenario;
+  scenario.dds.implementation = implementation;
+  scenario.deployment = model::Deployment::homogeneous(2, 1, 2);
+  model::DdsProfile other = scenario.dds;
+  other.spdp.period += model::Nanoseconds{1};
+  scenario.deployment.participants[1].dds = other;
+  return scenario;
+}
+
+TEST(Mixes, AreSpokenOfByWhatCountsOnNoProfile) {
+  const model::Scenario scenario = mixed(model::ImplementationKind::fastdds);
+  for (const char* const property :
+       {"composition.followed", "safety.ack-implies-received", "safety.repair-only-if-asked",
+        "timer.suppression-honoured", "live.no-stall", "safety.conservation"}) {
+    EXPECT_TRUE(is_watched(scenario, property)) << property;
+  }
+  for (const char* const property : {"live.completion", "live.quiescence", "storm.single-copy",
+                                     "storm.free-threshold", "storm.cannot-start"}) {
+    EXPECT_NE(applicability_of(property, scenario).why_not, "") << property;
+    EXPECT_FALSE(is_watched(scenario, property)) << property;
+  }
+  EXPECT_FALSE(is_watched(mixed(model::ImplementationKind::cyclone), "live.no-stall"));
+}
+
+TEST(Mixes, AreProvedByNoEngine) {
+  for (const Property& property : catalogue()) {
+    const Applicability answer =
+        applicability_of(property, mixed(model::ImplementationKind::fastdds));
+    if (property.about == Vocabulary::everything) continue;
+    for (const Engine engine :
+         {Engine::tables, Engine::explorer, Engine::timelines, Engine::calculus}) {
+      EXPECT_FALSE(answer.is_decided_by(engine)) << property.id;
+    }
+  }
+}
+
+TEST(Mixes, HaveNoProfileThatIsChangedForAll) {
+  EXPECT_NE(why_profile_is_not_changed(mixed(model::ImplementationKind::fastdds)), "");
+  model::Scenario same = mixed(model::ImplementationKind::fastdds);
+  same.deployment.participants[1].dds = same.dds;
+  EXPECT_EQ(why_profile_is_not_changed(same), "");
+}
+
 }  // namespace applicability_test
 }  // namespace stormproof::props

@@ -313,7 +313,7 @@ Document document_of(const FuzzReport& report, const FuzzContext& context) {
     }
   }
   add_reservations(document, report);
-  report::add_unmodelled(document, scenario.dds);
+  report::add_unmodelled(document, scenario);
   return document;
 }
 

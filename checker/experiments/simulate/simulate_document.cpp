@@ -74,6 +74,13 @@ std::string elaboration(const Simulation& s) {
         s.scenario.run_until == model::RunUntil::quiescence ? "quiescence" : "time_limit",
         duration(result.end_time));
   }
+  if (is_mixed(s.scenario)) {
+    const auto own = std::ranges::count_if(
+        s.scenario.deployment.participants,
+        [&](const model::Participant& one) { return one.dds && *one.dds != s.scenario.dds; });
+    text += fmt::format("{} of {} participants have a DDS profile of their own. ", own,
+                        s.scenario.deployment.size());
+  }
   if (s.scenario.deployment.life) text += recovery_text(s);
   if (result.messages_since_last_start) {
     text +=
@@ -368,7 +375,7 @@ Document document_of(const Simulation& s) {
   add_last_delivery(waiting.blocks, s.result);
   blocks.emplace_back(std::move(waiting), Audience::verbose);
   add_footer(blocks, s);
-  add_unmodelled(document, s.scenario.dds);
+  add_unmodelled(document, s.scenario);
   return document;
 }
 

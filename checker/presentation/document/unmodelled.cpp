@@ -1,6 +1,13 @@
 // Says what the model leaves out: to people as assumptions, to code scanning as notes.
 #include "checker/presentation/document/unmodelled.hpp"
 
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "model/engine/profiles.hpp"
+
 namespace stormproof::report {
 
 void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose,
@@ -19,6 +26,22 @@ void add_unmodelled(Document& document, const model::DdsProfile& dds, std::strin
     note.identity = {document.title, std::string{whose}, setting};
     const auto place = places->find("dds.unmodelled." + setting);
     if (place != places->end()) note.locations.emplace_back(place->second);
+  }
+}
+
+void add_unmodelled(Document& document, const model::Scenario& scenario,
+                    const model::config::Places* places) {
+  add_unmodelled(document, scenario.dds, "", places);
+  const model::Profiles profiles{scenario};
+  for (std::uint32_t k = 1; k < profiles.different().size(); ++k) {
+    const model::DdsProfile& dds = profiles.different()[k];
+    if (dds.unmodelled == scenario.dds.unmodelled) continue;
+    std::vector<std::uint32_t> whose;
+    for (std::uint32_t i = 0; i < scenario.deployment.size(); ++i) {
+      if (profiles.number_of(i) == k) whose.push_back(i);
+    }
+    const char* word = whose.size() == 1 ? "participant" : "participants";
+    add_unmodelled(document, dds, fmt::format("{} {}", word, fmt::join(whose, ", ")));
   }
 }
 

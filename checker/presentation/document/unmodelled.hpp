@@ -8,6 +8,7 @@
 #include "checker/presentation/document/document.hpp"
 #include "model/config/tree/tree.hpp"
 #include "model/dds_profile.hpp"
+#include "model/scenario.hpp"
 
 namespace stormproof::report {
 
@@ -17,6 +18,10 @@ inline constexpr const char* unmodelled_heading = "Not in the model, assumed to 
 /// One assumption for each setting. `whose` names the profile if there are several. With the places
 /// of the scenario, each is a note among the findings, too, at the line that names it.
 void add_unmodelled(Document& document, const model::DdsProfile& dds, std::string_view whose = {},
+                    const model::config::Places* places = nullptr);
+
+/// Of the scenario's profile, and of those that participants have beside it.
+void add_unmodelled(Document& document, const model::Scenario& scenario,
                     const model::config::Places* places = nullptr);
 
 }  // namespace stormproof::report

@@ -315,7 +315,7 @@ report::Document document_of(const CheckReport& report, const CheckContext& cont
   }
   for (const Standing standing : standings) add_verdicts(document, report, context, standing);
   if (report.frontiers) add_frontiers(document, *report.frontiers);
-  add_unmodelled(document, context.scenario.dds, "", &context.places);
+  add_unmodelled(document, context.scenario, &context.places);
   add_violations(document, report, context);
   add_run(document, context);
   add_profiles(document, context);
