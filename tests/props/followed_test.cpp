@@ -41,7 +41,7 @@ std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
 
 /// Rules that are followed beside a run ask the participants that the run asks.
 TEST(FollowedMixes, AreWhatTheRulesSay) {
-  for (std::uint64_t seed = 0; seed < 150; ++seed) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const Scenario scenario = oracle::random_mixed_scenario(seed);
     const auto monitor = follow(scenario);
     if (!monitor->violation()) continue;
