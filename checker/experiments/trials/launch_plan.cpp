@@ -91,18 +91,8 @@ void follow(const Plan& plan, const Deployment& base, model::Scenario& drawn) {
 }
 
 std::optional<Plan> stepped(const Plan& plan, double factor) {
-  constexpr Nanoseconds usual{100'000'000};
-  switch (plan.order) {
-    case Order::at_once:
-      return factor > 1 ? std::optional{Plan{Order::by_process, usual}} : std::nullopt;
-    case Order::by_process:
-    case Order::by_host: {
-      const Nanoseconds step{std::llround(factor * static_cast<double>(plan.step.count()))};
-      return step == plan.step ? std::nullopt : std::optional{Plan{plan.order, step}};
-    }
-    default:
-      return factor < 1 ? std::optional{Plan{Order::at_once}} : std::nullopt;
-  }
+  const Nanoseconds step{std::llround(factor * static_cast<double>(plan.step.count()))};
+  return step == plan.step ? std::nullopt : std::optional{Plan{plan.order, step}};
 }
 
 std::vector<Plan> plans_for(const Deployment& deployment, const std::vector<Nanoseconds>& steps,

@@ -53,8 +53,7 @@ inline constexpr std::string_view plan_key = "deployment.launch";
 /// waits all start at once: when a start is complete, only a run tells.
 void follow(const Plan& plan, const model::Deployment& base, model::Scenario& drawn);
 
-/// The plan with its step changed, or what is nearest to that: what starts at once is started 100
-/// ms apart, what follows no plan all at once. Nothing if it is the same plan.
+/// The plan with `factor` times its step; nothing if it has none.
 [[nodiscard]] std::optional<Plan> stepped(const Plan& plan, double factor);
 
 /// The plans to compare: the deployed one first, spreads whose last start is within `limit`.

@@ -107,10 +107,9 @@ TEST(SensitivityLevels, MovedGoesOnTopOfOtherChanges) {
   EXPECT_FALSE(moved(scenario, "no.such.key", Direction::up, 0.2));
 }
 
-/// What starts at once is spread, what is spread is moved.
+/// What is spread is moved; all at once is a spread of 0, which has no relative step.
 TEST(SensitivityLevels, StartsAreSpreadAsLaunchHasThem) {
-  EXPECT_EQ(levels(knob_of(scenario_with({}), "deployment.launch")),
-            "– → process by process, 100ms apart");
+  EXPECT_EQ(levels(knob_of(scenario_with({}), "deployment.launch")), "– → –");
   const model::config::SpecPath specs{{STORMPROOF_SPECS_DIR}};
   const auto fleet = model::config::read_scenario("fleet-4x2x20", {}, specs);
   ASSERT_TRUE(fleet);

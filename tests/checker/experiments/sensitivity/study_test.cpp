@@ -216,7 +216,8 @@ TEST(SensitivityStudy, WhatThereIsNoTimeForIsCutAndSaid) {
   EXPECT_EQ(whole.samples, 6U);
   EXPECT_TRUE(whole.pairs.empty());
   EXPECT_FALSE(whole.cut_at);
-  const model::Scenario endless = scenario_with({"wireless=wired", "wireless.one_way=30s"});
+  const model::Scenario endless =
+      scenario_with({"wireless=wired", "wireless.one_way=30s", "time_limit=20s"});
   const Report cut = analyse(endless, options);
   ASSERT_TRUE(cut.cut_at);
   EXPECT_LT(*cut.cut_at, endless.time_limit);
