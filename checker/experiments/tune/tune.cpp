@@ -36,10 +36,12 @@ constexpr std::size_t least_samples = 6;
 constexpr double careful = 0.7;
 /// Distance between the sets of seeds.
 constexpr std::uint64_t next_seeds = 1'000'000;
-/// Of the time that is left, what the search may take where its runs may be cut.
-constexpr double search_part = 0.5;
+/// Of the time that is left, what the search may take where the unchanged setting is not complete.
+constexpr double search_part = 0.35;
+/// What follows takes so many times as long for each run: it is watched.
+constexpr std::size_t watched_factor = 4;
 /// A run that is cut takes no less than such a part of the others.
-constexpr std::size_t most_gained = 16;
+constexpr std::size_t most_gained = 4;
 /// Where there is little time, the unchanged setting is watched for so many times what is late.
 constexpr std::int64_t watched_late = 10;
 
@@ -153,8 +155,9 @@ class Study {
     trials::Patience patience{scenario().time_limit, Nanoseconds{1}};
     patience.see(cost_of(outcomes).completion, trials::beside_unchanged);
     report_.search_limit = patience.limit();
-    // Where runs of the search are cut, those until now say little of them: its time ends it.
-    if (may_cut()) {
+    // Where the unchanged setting does not complete, its runs say little of those of the search,
+    // which are cut: its time ends it.
+    if (is_open()) {
       if (const auto left = seconds_left()) {
         report_.budget = std::min(report_.budget, most_gained * runner_.fitting(careful * *left));
         report_.was_fitted = report_.budget < options_.budget;
@@ -170,8 +173,10 @@ class Study {
     return options_.seconds_left ? options_.seconds_left() : std::nullopt;
   }
   [[nodiscard]] Nanoseconds late() const { return exact::late_limit(scenario().limits); }
-  /// Whether runs of the search that take long are cut: those of storms.
-  [[nodiscard]] bool may_cut() const { return report_.search_limit > late(); }
+  /// Whether the unchanged setting is no measure of how long a run of the search takes.
+  [[nodiscard]] bool is_open() const {
+    return report_.search_limit == scenario().time_limit && report_.search_limit > late();
+  }
 
   /// About how many runs there will be.
   [[nodiscard]] std::size_t all_runs() const {
@@ -184,7 +189,8 @@ class Study {
   void fit_into_time() {
     const auto left = seconds_left();
     if (!left) return;
-    const std::size_t fits = runner_.fitting(careful * *left);
+    const std::size_t unwatched = runner_.fitting(careful * *left);
+    const std::size_t fits = is_searched_ ? unwatched / watched_factor : unwatched;
     const auto lower = [&](std::size_t& number, std::size_t least) {
       while (all_runs() > fits && number > least) number = std::max(least, number * 3 / 4);
     };
@@ -203,7 +209,7 @@ class Study {
     doing_ = "search";
     Archive archive{problem_, {report_.search_limit, late()}, runner_};
     SearchOptions options{report_.budget, report_.searched, options_.seed};
-    if (const auto left = seconds_left(); left && may_cut()) {
+    if (const auto left = seconds_left(); left && is_open()) {
       options.time_used = [this, left] {
         return (*left - seconds_left().value_or(0)) / (search_part * *left);
       };
@@ -224,7 +230,7 @@ class Study {
     choice_ = front_.empty() ? problem_.space.unchanged() : front_.front();
     if (!report_.found.finished) return false;
 
-    if (may_cut()) {
+    if (is_open()) {
       is_searched_ = true;
       if (archive.runs() < report_.budget) {
         report_.was_fitted = true;
