@@ -2,6 +2,7 @@
 #include "checker/experiments/tune/tune.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -141,7 +142,8 @@ class Study {
     Archive archive{problem_, scenario().time_limit, runner_};
     const std::vector<Point> unchanged{report_.space.unchanged()};
     if (!archive.extend(unchanged, report_.searched)) return false;
-    if (seconds_left()) archive.watch_until(late() * watched_late);
+    const Cost cost = archive.cost(report_.space.unchanged(), report_.searched);
+    if (seconds_left() && std::isinf(cost.completion)) archive.watch_until(late() * watched_late);
     if (!archive.watch(unchanged, report_.searched)) return false;
     const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
     if (options_.keep.empty()) {
