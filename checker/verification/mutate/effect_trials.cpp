@@ -12,8 +12,6 @@ namespace stormproof::mutate {
 
 namespace {
 
-using fsm::composition::EffectKey;
-using fsm::composition::EffectMutation;
 using model::Nanoseconds;
 
 /// Mutants may schedule events without end.
@@ -31,11 +29,10 @@ model::RunResult run(const model::Scenario& scenario, const model::Mutation* mut
   return model::simulate(scenario, options);
 }
 
-/// Who objects to a run of the scenario.
-Ids judged(const model::Scenario& scenario, const model::Mutation* mutation,
-           const Ids& silent = {}) {
-  Onlookers onlookers{scenario, silent};
-  const model::RunResult result = run(scenario, mutation, onlookers.probe());
+/// Who objects to the correct run of the scenario.
+Ids judged(const model::Scenario& scenario) {
+  Onlookers onlookers{scenario};
+  const model::RunResult result = run(scenario, nullptr, onlookers.probe());
   return onlookers.objections(scenario, result);
 }
 
@@ -68,43 +65,6 @@ model::Scenario draw_disturbed(std::uint64_t seed, model::ImplementationKind kin
   return scenario;
 }
 
-/// Which effects happen, and how conditions are decided.
-class EffectProbe final : public model::Probe {
- public:
-  explicit EffectProbe(Happened& happened) : happened_{happened} {}
-
-  [[nodiscard]] model::Reports reports() const override {
-    model::Reports reports;
-    reports.set(model::Report::effect);
-    return reports;
-  }
-  [[nodiscard]] bool wants_effects() const override { return true; }
-  void effect(EffectKey key) override { happened_.effects.insert(key); }
-  void decided(EffectKey key, bool holds) override {
-    (holds ? happened_.held : happened_.did_not).insert(key);
-  }
-
- private:
-  Happened& happened_;
-};
-
-/// Whether a run in which this happens can show the mistake. Loops are asked even if nothing
-/// happens in them.
-bool may_change(const EffectMutation& mistake, const Happened& happened) {
-  using enum EffectMutation::Change;
-  const bool did_not_hold = happened.did_not.contains(mistake.key);
-  switch (mistake.change) {
-    case first_only:
-      return true;
-    case always:
-      return did_not_hold;
-    case negated:
-      return did_not_hold || happened.held.contains(mistake.key);
-    default:
-      return happened.effects.contains(mistake.key);
-  }
-}
-
 bool same_times(const props::RunLog& one, const props::RunLog& other) {
   const auto same = [](const props::RunLog::Entry& a, const props::RunLog::Entry& b) {
     return a.time == b.time && a.kind == b.kind;
@@ -120,6 +80,18 @@ Harm harm(const model::RunResult& correct, const model::RunResult& mistaken) {
                            correct.user_control == mistaken.user_control &&
                            correct.duplicate_deliveries == mistaken.duplicate_deliveries;
   return same_counts ? Harm::time : Harm::messages;
+}
+
+/// The first, the last, the second, the last but one, …
+template <class Item>
+std::vector<Item> from_both_ends(std::vector<Item> list) {
+  std::vector<Item> mixed;
+  std::size_t end = list.size();
+  for (std::size_t first = 0; first < end; ++first) {
+    mixed.push_back(std::move(list[first]));
+    if (--end > first) mixed.push_back(std::move(list[end]));
+  }
+  return mixed;
 }
 
 }  // namespace
@@ -138,29 +110,50 @@ const std::vector<EffectTrials::Correct>& EffectTrials::drawn(
     probes.add(correct.log);
     probes.add(effects);
     correct.result = run(correct.scenario, nullptr, probes);
-    correct.objections = judged(correct.scenario, nullptr);
+    correct.objections = judged(correct.scenario);
   }
   const auto length = [](const Correct& correct) { return correct.log.entries().size(); };
   std::ranges::stable_sort(list, {}, length);
+  list = from_both_ends(std::move(list));
   return list;
 }
 
-EffectFindings EffectTrials::try_out(const CatalogueEntry& entry) {
+EffectTrials::Mistaken EffectTrials::run_with(const CatalogueEntry& entry, const Correct& correct,
+                                              bool is_watched) {
+  Mistaken mistaken;
   const model::Mutation* const rules = &entry.mutant.rules;
+  if (!is_watched) {
+    mistaken.result = run(correct.scenario, rules, mistaken.log);
+    return mistaken;
+  }
+  Onlookers onlookers{correct.scenario, correct.objections};
+  onlookers.add(mistaken.log);
+  mistaken.result = run(correct.scenario, rules, onlookers.probe());
+  mistaken.objections = onlookers.objections(correct.scenario, mistaken.result);
+  return mistaken;
+}
+
+/// Onlookers watch from the beginning if the run before differed, as the next will, too.
+EffectFindings EffectTrials::try_out(const CatalogueEntry& entry) {
   EffectFindings found;
+  std::uint64_t differing = 0;
+  bool is_likely = false;
   for (const Correct& correct : drawn(entry.concerns.front())) {
-    if (stopped()) break;
-    if (!may_change(rules->effects.front(), correct.happened)) continue;
-    props::RunLog log;
-    const model::RunResult result = run(correct.scenario, rules, log);
-    if (!props::first_difference(log, correct.log)) continue;
-    const bool timely = same_times(log, correct.log);
-    found.harm = std::max(found.harm, timely ? Harm::nothing : harm(correct.result, result));
-    found.objections = judged(correct.scenario, rules, correct.objections);
+    if (stopped() || differing == differing_runs) break;
+    if (!may_change(entry.mutant.rules.effects.front(), correct.happened)) continue;
+    Mistaken mistaken = run_with(entry, correct, is_likely);
+    is_likely = props::first_difference(mistaken.log, correct.log).has_value();
+    if (!is_likely) continue;
+    ++differing;
+    const bool timely = same_times(mistaken.log, correct.log);
+    const Harm worst = timely ? Harm::nothing : harm(correct.result, mistaken.result);
+    found.harm = std::max(found.harm, worst);
+    if (!mistaken.objections) mistaken = run_with(entry, correct, true);
+    found.objections = *std::move(mistaken.objections);
     if (!found.objections.empty()) break;
     if (!found.are_followed) continue;
     const auto monitor = props::make_monitor(followed, correct.scenario);
-    run(correct.scenario, rules, *monitor);
+    run(correct.scenario, &entry.mutant.rules, *monitor);
     found.are_followed = !monitor->violation();
   }
   return found;

@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "checker/verification/mutate/happened.hpp"
 #include "checker/verification/mutate/mutants.hpp"
 #include "checker/verification/mutate/onlookers.hpp"
 #include "model/implementations.hpp"
@@ -40,17 +42,12 @@ struct EffectFindings {
   Harm harm = Harm::unseen;
 };
 
-/// What of the rules a run comes to.
-struct Happened {
-  std::set<fsm::composition::EffectKey> effects;
-  std::set<fsm::composition::EffectKey> held;     ///< conditions, at least once
-  std::set<fsm::composition::EffectKey> did_not;  ///< conditions that did not hold, at least once
-};
-
 /// May be shared by threads.
 class EffectTrials {
  public:
   static constexpr std::uint64_t runs = 120;
+  /// Of a mistake that nobody objects to: so many runs that differ are looked at.
+  static constexpr std::uint64_t differing_runs = 80;
 
   /// `goes_on` is asked now and then; once it says no, what is returned means nothing.
   explicit EffectTrials(std::function<bool()> goes_on = {}) : goes_on_{std::move(goes_on)} {}
@@ -65,7 +62,14 @@ class EffectTrials {
     Happened happened;
     Ids objections;  ///< without a mistake
   };
-  /// The random scenarios of an implementation, and their correct runs, the shortest first.
+  struct Mistaken {
+    props::RunLog log;
+    model::RunResult result;
+    std::optional<Ids> objections = {};  ///< if onlookers watched
+  };
+  static Mistaken run_with(const CatalogueEntry& entry, const Correct& correct, bool is_watched);
+  /// The random scenarios of an implementation, and their correct runs, the shortest, the longest,
+  /// and so on from both ends: most mistakes show themselves in short ones, some only in long ones.
   const std::vector<Correct>& drawn(model::ImplementationKind implementation);
   [[nodiscard]] bool stopped() const { return goes_on_ && !goes_on_(); }
 

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "checker/verification/mutate/happened.hpp"
 #include "checker/verification/mutate/mutants.hpp"
 #include "checker/verification/mutate/trial_scenarios.hpp"
 #include "model/implementations.hpp"
@@ -19,6 +21,7 @@ namespace stormproof::mutate {
 /// comparison of events that the checker proves something about, not about the simulator's.
 [[nodiscard]] bool shows_in_runs(const checker::Mutant& mutant);
 
+/// May be shared by threads.
 class LawTrials {
  public:
   /// `goes_on` is asked now and then; once it says no, what is returned means nothing.
@@ -29,14 +32,21 @@ class LawTrials {
   [[nodiscard]] std::vector<std::string> killers(const CatalogueEntry& entry);
 
  private:
-  /// A scenario, and for each law whether it applies and holds there without a mutant.
+  /// A law that applies to a scenario and holds there without a mutant.
+  struct Kept {
+    std::size_t law;    ///< in `props::laws()`
+    Happened happened;  ///< in all runs that it looks at, without a mutant
+  };
   struct Ground {
     Trial trial;
-    std::vector<bool> holds;
+    std::vector<Kept> kept;
   };
-  std::vector<Ground>& grounds(model::ImplementationKind implementation);
+  const std::vector<Ground>& grounds(model::ImplementationKind implementation);
+  void ask(const Ground& ground, const CatalogueEntry& entry, std::vector<bool>& kills) const;
+  [[nodiscard]] bool stopped() const { return goes_on_ && !goes_on_(); }
 
   std::function<bool()> goes_on_;
+  std::mutex drawing_;
   std::array<std::vector<Ground>, model::implementation_traits.size()> grounds_;
 };
 

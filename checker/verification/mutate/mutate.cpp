@@ -106,8 +106,8 @@ std::vector<Question> questions_of(model::ImplementationKind implementation) {
 
 class Mutator {
  public:
-  Mutator(const MutateOptions& options, EffectTrials& effects)
-      : options_{options}, claims_{quick(options)}, effects_{effects} {}
+  Mutator(const MutateOptions& options, LawTrials& laws, EffectTrials& effects)
+      : options_{options}, claims_{quick(options)}, laws_{laws}, effects_{effects} {}
 
   MutantResult try_mutant(const CatalogueEntry& entry) {
     return entry.kind == Kind::effect ? try_effect(entry) : try_out(entry);
@@ -119,15 +119,6 @@ class Mutator {
     solver.second_solver = false;
     solver.export_dir.clear();
     return solver;
-  }
-
-  [[nodiscard]] bool progress(std::string_view what) const {
-    return !options_.on_progress || options_.on_progress(what);
-  }
-
-  /// For trials, which have nothing to say.
-  [[nodiscard]] std::function<bool()> goes_on() const {
-    return [this] { return progress("runs"); };
   }
 
   CheckRequest request(const Question& question, const checker::Mutant* mutant) {
@@ -265,7 +256,7 @@ class Mutator {
   smt::Claims claims_;
   std::array<std::vector<Question>, model::implementation_traits.size()> questions_;
   std::array<std::vector<Question>, model::implementation_traits.size()> shared_questions_;
-  LawTrials laws_{goes_on()};
+  LawTrials& laws_;
   EffectTrials& effects_;
 };
 
@@ -317,7 +308,7 @@ class Mutators {
 
  private:
   void work() {
-    Mutator mutator{options_, effects_};
+    Mutator mutator{options_, laws_, effects_};
     for (std::size_t k = next_++; k < entries_.size(); k = next_++) {
       const std::string& id = entries_[k].mutant.id;
       if (!options_.on_progress(id)) return;
@@ -333,7 +324,9 @@ class Mutators {
   std::atomic<std::size_t> next_ = 0;
   std::mutex asking_;
   std::atomic<bool> stopped_ = false;
-  EffectTrials effects_{[this] { return options_.on_progress("runs"); }};
+  const std::function<bool()> goes_on_ = [this] { return options_.on_progress("runs"); };
+  LawTrials laws_{goes_on_};
+  EffectTrials effects_{goes_on_};
 };
 
 }  // namespace

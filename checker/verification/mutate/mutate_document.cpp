@@ -156,6 +156,8 @@ report::Document document_of(const MutationReport& report) {
         "composition.followed executes correct rules beside the run",
         effects, report.noticed_in_rules(), share_text(report.noticed_in_rules(), effects),
         report.only_followed());
+    document.answer += fmt::format(" (of each at most {} random runs that differ are judged)",
+                                   EffectTrials::differing_runs);
   }
   document.elaboration =
       report.everybody

@@ -27,6 +27,8 @@ class Onlookers {
   /// All who have something to say of runs of the scenario, but `silent`.
   explicit Onlookers(const model::Scenario& scenario, const Ids& silent = {});
 
+  /// Somebody else watches the same run; it must outlive this.
+  void add(model::Probe& probe) { probes_.add(probe); }
   [[nodiscard]] model::Probe& probe() { return probes_; }
   /// Who objects to the run of the scenario that has ended.
   [[nodiscard]] Ids objections(const model::Scenario& scenario, const model::RunResult& result);
