@@ -221,8 +221,6 @@ inline constexpr ImplementationTraits traits_of_programs{
 [[nodiscard]] constexpr ImplementationTraits traits_of_fastdds_static() {
   ImplementationTraits traits = traits_of_fastdds();
   traits.rules = "Fast DDS's own rules with static peers";
-  traits.knows_lives = false;
-  traits.has_living_composition = false;
   traits.guide = "specs/guide/discovery-server.md";
   return traits;
 }
@@ -232,6 +230,8 @@ inline constexpr ImplementationTraits traits_of_programs{
   ImplementationTraits traits = traits_of_fastdds_static();
   traits.rules = "the rules of Fast DDS's Discovery Server";
   traits.has_server = true;
+  traits.knows_lives = false;
+  traits.has_living_composition = false;
   traits.is_known_to_engines = false;
   traits.has_processor_times = false;
   traits.has_open_loop = false;

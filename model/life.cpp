@@ -26,11 +26,25 @@ bool is_replaced(const Life& life, std::uint32_t participant) {
   });
 }
 
+std::vector<bool> those_who_die(const Scenario& scenario) {
+  std::vector<bool> dying(scenario.deployment.size());
+  if (!scenario.deployment.life || !traits_of(scenario.dds).has_living_composition) return dying;
+  const Life& life = *scenario.deployment.life;
+  for (const Mute& mute : life.mute) dying[mute.participant] = true;
+  for (const Leave& leave : life.leaves) dying[leave.participant] = true;
+  for (const Restart& restart : life.restarts) {
+    if (restart.identity == Identity::fresh) dying[restart.participant] = true;
+  }
+  return dying;
+}
+
 bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
            Nanoseconds now) {
   if (!deployment.life) return true;
   const Life& life = *deployment.life;
   if (is_away(life, i, emitted) || is_away(life, j, now)) return false;
+  const Participant& receiver = deployment.participants[j];
+  if (now < receiver.ready.value_or(receiver.start)) return false;
   const auto host = [&](std::uint32_t k) { return deployment.participants[k].host.value; };
   if (host(i) == host(j)) return true;
   const auto is_one = [&](Reach reach, std::uint32_t number, std::uint32_t k) {
@@ -130,14 +144,14 @@ bool has_successors(const Deployment& deployment) {
 Scenario as_run(const Scenario& scenario) {
   Scenario all = scenario;
   all.deployment = with_successors(scenario.deployment);
-  const bool acts_always = traits_of(scenario.dds).has_event_thread;
-  if (announces_to_ports(scenario) && !all.deployment.life) {
-    all.deployment.life.emplace();
+  const ImplementationTraits& traits = traits_of(scenario.dds);
+  std::optional<Life>& life = all.deployment.life;
+  if (announces_to_ports(scenario) && !life) {
+    life.emplace();
     choose_lease(all);
   }
-  if (all.deployment.life && acts_always && !all.deployment.life->lease) {
-    all.deployment.life->lease = lease_of(scenario.dds);
-  }
+  const bool acts = traits.has_event_thread || (traits.has_living_composition && life != Life{});
+  if (life && acts && !life->lease) life->lease = lease_of(scenario.dds);
   return all;
 }
 

@@ -2,6 +2,8 @@
 // failure is over, and from when on nobody forgets anybody any more.
 #pragma once
 
+#include <vector>
+
 #include "model/deployment.hpp"
 #include "model/scenario.hpp"
 
@@ -11,7 +13,12 @@ namespace stormproof::model {
 [[nodiscard]] bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time);
 /// Whether somebody else comes back for it; it is never there again.
 [[nodiscard]] bool is_replaced(const Life& life, std::uint32_t participant);
-/// Whether j takes now what i has emitted then: neither is away, and no outage is between them.
+/// By participant: whether it is gone for ever some day, and nobody may hold it then. Discovery
+/// waits for nothing of it. Only under rules whose leases act by themselves; by others who falls
+/// silent is missing for ever.
+[[nodiscard]] std::vector<bool> those_who_die(const Scenario& scenario);
+/// Whether j takes now what i has emitted then: neither is away, j is ready, and no outage is
+/// between them.
 [[nodiscard]] bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j,
                          Nanoseconds emitted, Nanoseconds now);
 /// Its lease; nothing: it is never forgotten.
@@ -40,7 +47,8 @@ namespace stormproof::model {
 /// The deployment with a participant more for each that comes back as somebody new.
 [[nodiscard]] Deployment with_successors(const Deployment& deployment);
 /// The scenario as it is run: with successors, and with the library's own lease where it acts
-/// whether it is written down or not.
+/// whether it is written down or not: wherever something happens to somebody, and always if
+/// participants say that they are alive.
 [[nodiscard]] Scenario as_run(const Scenario& scenario);
 
 }  // namespace stormproof::model

@@ -42,7 +42,9 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
   using Composition = Composition_;
 
   LivingHost(RunState& run, Network& network)
-      : Below{run, network}, life_{run.scenario.deployment.life.value_or(Life{})} {
+      : Below{run, network},
+        life_{run.scenario.deployment.life.value_or(Life{})},
+        dying_{those_who_die(run.scenario)} {
     for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
       leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());
     }
@@ -77,6 +79,17 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
     this->renew_silently(part, relation);
   }
 
+  /// Nobody is to know who dies.
+  using Below::assign;
+  void assign(comp::Recognised known, std::uint32_t pair, bool is_known) {
+    const Pair& ends = this->topology().pair(pair);
+    if (ends.cross_host && dying_[ends.source] && !dying_[ends.destination]) {
+      this->run_.missing += is_known ? 1U : 0U;
+      this->run_.missing -= this->value(known, pair) ? 1U : 0U;
+    }
+    Below::assign(known, pair, is_known);
+  }
+
   using Base::answer;
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::LeaseDuration, const World& w) const {
@@ -86,8 +99,7 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override {
     std::vector<MissingDescriptor> list = Base::missing(SIZE_MAX);
     std::erase_if(list, [&](const MissingDescriptor& missing) {
-      return is_replaced(life_, missing.source.value) ||
-             is_replaced(life_, missing.destination.value);
+      return !waits_for(missing.source.value) || !waits_for(missing.destination.value);
     });
     list.resize(std::min(list.size(), limit));
     return list;
@@ -140,8 +152,7 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
   /// Whether discovery is complete only if the reader has everything.
   [[nodiscard]] bool is_required(std::uint32_t relation) const {
     const Pair& pair = this->ends(relation);
-    return pair.cross_host && !is_replaced(life_, pair.source) &&
-           !is_replaced(life_, pair.destination);
+    return pair.cross_host && waits_for(pair.source) && waits_for(pair.destination);
   }
   template <class P>
   void renew_silently(P part, std::uint32_t n) {
@@ -151,6 +162,11 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
   const Life life_;
 
  private:
+  [[nodiscard]] bool waits_for(std::uint32_t participant) const {
+    return !is_replaced(life_, participant) && !dying_[participant];
+  }
+
+  const std::vector<bool> dying_;     // by participant
   std::vector<std::int64_t> leases_;  // by participant; 0: never forgotten
 };
 

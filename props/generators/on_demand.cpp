@@ -288,6 +288,10 @@ void draw_life(Dice& dice, Scenario& scenario) {
   const std::vector<Participant>& all = scenario.deployment.participants;
   Life& life = scenario.deployment.life.emplace(drawn_life(dice, all));
   if (scenario.dds.amendments) draw_endpoints(dice, all, life);
+  if (!traits_of(scenario.dds).has_living_composition) return;
+  for (Participant& one : scenario.deployment.participants) {
+    if (dice.chance(20)) one.ready = one.start + Nanoseconds{dice.among({1, 30'000, 3'000'000})};
+  }
 }
 
 }  // namespace stormproof::props

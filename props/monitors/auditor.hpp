@@ -10,6 +10,7 @@
 #pragma once
 
 #include <type_traits>
+#include <vector>
 
 #include "model/engine/living_host.hpp"
 #include "model/life.hpp"
@@ -38,7 +39,9 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
   using typename Steps::Packet;
 
   AuditedRules(model::RunState& run, Audit& audit)
-      : Steps{run, audit}, life_{run.scenario.deployment.life.value_or(model::Life{})} {
+      : Steps{run, audit},
+        life_{run.scenario.deployment.life.value_or(model::Life{})},
+        dying_{those_who_die(run.scenario)} {
     for (Number n = 0; has_life_ && n < run.topology.relation_count(); ++n) {
       const bool left_out = run.topology.pair(n / 2).cross_host && !is_required(n / 2);
       if (left_out) run.missing -= run.topology.descriptor_count(n);
@@ -94,8 +97,19 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
 
   [[nodiscard]] bool is_required(Number pair) const override {
     const model::Pair& ends = this->topology().pair(pair);
-    return ends.cross_host && !is_replaced(life_, ends.source) &&
-           !is_replaced(life_, ends.destination);
+    const auto waits_for = [&](Number i) { return !is_replaced(life_, i) && !dying_[i]; };
+    return ends.cross_host && waits_for(ends.source) && waits_for(ends.destination);
+  }
+  /// Where who is gone is forgotten, nobody is to know who dies.
+  using Steps::assign;
+  void assign(comp::Recognised known, Number pair, bool is_known) {
+    const model::Pair& ends = this->topology().pair(pair);
+    const bool counts = model::detail::is_listed<comp::Return>(typename Composition::Timers{});
+    if (counts && ends.cross_host && dying_[ends.source] && !dying_[ends.destination]) {
+      this->run_.missing += is_known ? 1U : 0U;
+      this->run_.missing -= this->value(known, pair) ? 1U : 0U;
+    }
+    Steps::assign(known, pair, is_known);
   }
   using Steps::answer;
   template <class W>
@@ -148,6 +162,7 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
   }
   const bool has_life_ = this->run_.scenario.deployment.life.has_value();
   const model::Life life_;
+  const std::vector<bool> dying_;  // by participant
 
  private:
   void create(const model::Event& event) {

@@ -21,6 +21,12 @@ bool existed_before(const World& w, Id i) {
   return false;
 }
 
+// j, who does not die, is not to know i, who does.
+bool holds_in_vain(const World& w, Id i, Id j) {
+  const bool cross = w.participants.at(i).host != w.participants.at(j).host;
+  return cross && dies(w.scenario, i) && !dies(w.scenario, j);
+}
+
 void forget_topics(World& w, Id i, Id j) {
   if (w.makes(Mistake::topics_remembered)) return;
   for (auto& [key, control] : w.controls) {
@@ -52,7 +58,10 @@ void close_writer(World& w, Id j, Id i, int s) {
 
 // j forgets i: what it had of i, and what it knew of i as its reader.
 void forget(World& w, Id i, Id j) {
-  w.participants.at(j).known.erase(i);
+  if (w.participants.at(j).known.erase(i) > 0 && holds_in_vain(w, i, j) &&
+      !w.makes(Mistake::holds_the_dead)) {
+    --w.missing;
+  };
   w.participants.at(j).forgets.erase(i);
   ++w.lease_epochs[{i, j}];
   for (int s = 0; s < 2; ++s) {
@@ -77,7 +86,7 @@ void forget(World& w, Id i, Id j) {
 
 // Before the run i exists, has all of j and takes j for up to date; j knows nothing of i.
 void open_before(World& w, Id i, Id j) {
-  w.participants.at(i).known.insert(j);
+  get_to_know(w, j, i);
   heard(w, i, j);
   for (int s = 0; s < 2; ++s) {
     const Id count = descriptor_count(w.scenario, i, s);
@@ -135,6 +144,14 @@ void begin_life(World& w) {
   w.ended = ends_complete(w);
 }
 
+void get_to_know(World& w, Id i, Id j) {
+  const bool is_new = w.participants.at(j).known.insert(i).second;
+  if (!is_new || !holds_in_vain(w, i, j) || w.makes(Mistake::holds_the_dead)) return;
+  ++w.missing;
+  w.outcome.completed = false;
+  w.outcome.t_disc_ns = -1;
+}
+
 void schedule_returns(World& w) {
   for (const model::Restart& back : life_of(w).restarts) {
     if (back.identity == model::Identity::fresh) continue;
@@ -154,6 +171,7 @@ bool is_away(const World& w, Id i, Time at) { return oracle::is_away(w.scenario,
 bool is_heard(const World& w, const Packet& packet, Id j) {
   if (!w.scenario.deployment.life) return true;
   if (is_away(w, packet.source, packet.emitted) || is_away(w, j, w.now)) return false;
+  if (!is_ready(w.scenario, j, w.now) && !w.makes(Mistake::hears_unready)) return false;
   return !is_cut_off(w.scenario, packet.source, j, w.now) || w.makes(Mistake::hears_in_outages);
 }
 
@@ -204,7 +222,10 @@ void heard(World& w, Id j, Id i) {
 
 void lease_check(World& w, Id i, Id j) {
   const Time end = w.participants.at(j).forgets.at(i);
-  if (w.now >= end) return forget(w, i, j);
+  if (w.now >= end) {
+    forget(w, i, j);
+    return note_completion(w);
+  }
   schedule(w, end, EventClass::protocol, lease_event(i, j));
 }
 

@@ -107,7 +107,7 @@ void announce(World& w, Id i, std::int64_t k) {
 void receive_spdp(World& w, Id j, Id i) {
   std::set<Id>& known = w.participants.at(j).known;
   if (known.contains(i)) return;
-  known.insert(i);
+  get_to_know(w, i, j);
   resend(w, j, i);
   const bool builtin_first =
       profile(w, j).version.match_order == model::MatchOrder::builtin_first &&

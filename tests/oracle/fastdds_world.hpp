@@ -476,6 +476,8 @@ void schedule_creations(World& w, Id i, Time start);
 
 // fastdds_life.cpp
 void begin_life(World& w);
+/// j has heard of i.
+void get_to_know(World& w, Id i, Id j);
 void schedule_returns(World& w);
 [[nodiscard]] bool ends_complete(const World& w);
 [[nodiscard]] bool is_away(const World& w, Id i, Time at);

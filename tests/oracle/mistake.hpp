@@ -130,6 +130,8 @@ enum class FastddsMistake : std::uint8_t {
   forgotten_events_happen,  ///< what was due for a forgotten side happens at the new one
   returns_with_memory,      ///< who comes back knows what it knew
   returns_with_endpoints,   ///< or has its endpoints already
+  holds_the_dead,           ///< discovery is complete while somebody is known who is gone
+  hears_unready,            ///< a participant hears before it is ready
   hears_in_outages,         ///< outages have no effect
   ends_before_settled,      ///< the first completion ends a run
   // What later versions have.

@@ -73,6 +73,7 @@ model::Scenario with_those_who_come_back_as_others(model::Scenario scenario) {
     scenario.deployment.participants.push_back(scenario.deployment.participants[back.participant]);
     model::Participant& there = scenario.deployment.participants.back();
     there.endpoints_done = back.start + (there.endpoints_done - there.start);
+    if (there.ready) *there.ready += back.start - there.start;
     there.start = back.start;
     for (std::size_t k = 0; k < life.leases.size(); ++k) {
       if (life.leases[k].participant != back.participant) continue;
@@ -103,6 +104,7 @@ bool is_asked_for(const World& w, Id i, Id j) {
 
 bool is_heard(const World& w, const Packet& packet, Id j) {
   if (is_away(w, packet.source, packet.emitted) || is_away(w, j, w.now)) return false;
+  if (w.scenario.deployment.life && !oracle::is_ready(w.scenario, j, w.now)) return false;
   return !is_cut_off(w.scenario, packet.source, j, w.now) || w.makes(Mistake::hears_in_outages);
 }
 

@@ -9,6 +9,15 @@ namespace {
 model::Life life_of(const model::Scenario& scenario) {
   return scenario.deployment.life.value_or(model::Life{});
 }
+/// That of who has no other one.
+std::int64_t common_lease(const model::Scenario& scenario) {
+  constexpr std::int64_t fast_dds = 20'000'000'000;
+  const model::Life life = life_of(scenario);
+  if (life.lease) return life.lease->count();
+  const bool is_fast_dds = scenario.dds.implementation == model::ImplementationKind::fastdds;
+  if (!is_fast_dds || life == model::Life{}) return 0;
+  return scenario.dds.spdp.lease ? scenario.dds.spdp.lease->count() : fast_dds;
+}
 }  // namespace
 
 std::int64_t lease_of(const model::Scenario& scenario, std::uint32_t i) {
@@ -16,7 +25,15 @@ std::int64_t lease_of(const model::Scenario& scenario, std::uint32_t i) {
   for (const model::Lease& lease : life.leases) {
     if (lease.participant == i) return lease.duration.count();
   }
-  return life.lease ? life.lease->count() : 0;
+  return common_lease(scenario);
+}
+
+bool dies(const model::Scenario& scenario, std::uint32_t i) {
+  if (scenario.dds.implementation != model::ImplementationKind::fastdds) return false;
+  for (const model::Mute& mute : life_of(scenario).mute) {
+    if (mute.participant == i) return true;
+  }
+  return is_replaced(scenario, i);
 }
 
 bool is_replaced(const model::Scenario& scenario, std::uint32_t i) {
@@ -38,6 +55,11 @@ bool is_away(const model::Scenario& scenario, std::uint32_t i, std::int64_t at) 
   return false;
 }
 
+bool is_ready(const model::Scenario& scenario, std::uint32_t i, std::int64_t at) {
+  const std::optional<model::Nanoseconds> ready = scenario.deployment.participants[i].ready;
+  return !ready || at >= ready->count();
+}
+
 bool is_cut_off(const model::Scenario& scenario, std::uint32_t from, std::uint32_t to,
                 std::int64_t at) {
   for (const model::Outage& outage : life_of(scenario).outages) {
@@ -49,7 +71,7 @@ bool is_cut_off(const model::Scenario& scenario, std::uint32_t from, std::uint32
 
 std::int64_t settled(const model::Scenario& scenario) {
   const model::Life life = life_of(scenario);
-  std::int64_t longest = life.lease ? life.lease->count() : 0;
+  std::int64_t longest = common_lease(scenario);
   std::int64_t last = 0;
   for (const model::Lease& lease : life.leases) longest = std::max(longest, lease.duration.count());
   for (const model::Participant& p : scenario.deployment.participants) {

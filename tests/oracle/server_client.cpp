@@ -101,8 +101,7 @@ void learn_endpoint(World& w, Id j, const Item& item) {
 
 // Whether discovery is complete only if j has received the descriptor of i.
 bool is_needed(const World& w, Id i, Id j, int s, Id d) {
-  if (!w.server)
-    return cross_host(w, i, j) && !is_replaced(w.scenario, i) && !is_replaced(w.scenario, j);
+  if (!w.server) return cross_host(w, i, j) && !dies(w.scenario, i) && !dies(w.scenario, j);
   if (i == w.server_id() || j == w.server_id()) return false;
   const int topic = topic_of(s, d);
   return topic != no_topic && descriptor_of(1 - s, topic) < descriptor_count(w.scenario, j, 1 - s);

@@ -132,7 +132,7 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
 [[nodiscard]] inline std::string needed_for_lives(const Scenario& scenario) {
   if (!traits_of(scenario.dds).knows_lives) {
     return "or a DDS profile whose rules know it: one with amendments, or implementation: fastdds "
-           "with discovery: simple, or implementation: cyclone";
+           "with discovery: simple or static, or implementation: cyclone";
   }
   std::string needed;
   if (scenario.wireless.sender != Sender::backlog) {

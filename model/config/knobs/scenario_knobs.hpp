@@ -126,8 +126,8 @@ void visit_knobs(auto& visit, Is<Participant> auto& participant) {
              "implementation: cyclone",
              Presence::optional);
   visit.knob(ready_key, participant.ready, delay_range,
-             "what reaches it before is received then; not before its start, which it is if "
-             "absent; used by implementation: cyclone",
+             "what reaches it before is received then, in a life under Fast DDS lost; not before "
+             "its start, which it is if absent; used by implementation: cyclone, and in lives",
              Presence::optional);
   visit.section(own_profile_key, participant.dds,
                 "its DDS profile, of the implementation of the scenario's; that of its host or of "

@@ -70,7 +70,77 @@ TEST(FastDdsLife, NeedsRulesThatKnowIt) {
   EXPECT_FALSE(config::is_valid(scenario));
   scenario = rejoin();
   scenario.dds.discovery = Discovery::static_peers;
+  EXPECT_TRUE(config::is_valid(scenario));
+  scenario.dds.discovery = Discovery::server;
   EXPECT_FALSE(config::is_valid(scenario));
+}
+
+// Two participants, two user endpoints each, that start at 0 and at 0.5 s; every packet takes 0.1
+// ms: the cases that are worked out by hand in specs/guide/museum.md.
+
+constexpr std::int64_t us = 1'000;
+constexpr std::int64_t ms = 1'000 * us;
+
+Scenario two(const std::string& profile, const std::vector<std::string>& more) {
+  std::vector<std::string> overrides{
+      "dds=" + profile,
+      "deployment.participants=[{host: 0, publications: 1, subscriptions: 1}, {host: 1, "
+      "publications: 1, subscriptions: 1, start: 500ms}]",
+      "wireless={kind: constant_delay, one_way: 100us}", "run_until=time_limit"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return rejoin(overrides);
+}
+std::string life(const std::string& what) { return "deployment.life={" + what + "}"; }
+std::optional<std::int64_t> complete_at_us(const Scenario& scenario) {
+  const RunResult run = simulate(scenario);
+  if (!run.discovery_time) return {};
+  EXPECT_EQ(run.discovery_time->count() % us, 0);
+  return run.discovery_time->count() / us;
+}
+const std::string one_way = "{from: 0, to: 1, start: 9900ms, end: 39900ms}";
+const std::string both_ways =
+    "outages: [" + one_way + ", {from: 1, to: 0, start: 9900ms, end: 39900ms}]";
+
+/// The lease is the library's own, though nobody has written it down: 0 forgets 1 at 27.0, 1
+/// forgets 0 at 29.5, and 1's announcement at 40.0 is the first that arrives.
+TEST(FastDdsOutage, EndsWithTheNextAnnouncement) {
+  EXPECT_EQ(complete_at_us(two("fastdds-2.6.11", {life(both_ways)})), 40'000'610);
+  EXPECT_EQ(complete_at_us(two("fastdds-2.14.5", {life(both_ways)})), 40'110'500);
+  EXPECT_EQ(complete_at_us(two("fastdds-static-2.6.11", {life(both_ways)})), 40'000'610);
+}
+/// 1 forgets 0 at 29.5, 0 forgets nobody; 0 announces itself at 42.5.
+TEST(FastDdsOutage, OfOneDirectionIsForgottenByOneSide) {
+  const std::string cut = "outages: [" + one_way + "]";
+  EXPECT_EQ(complete_at_us(two("fastdds-2.6.11", {life(cut)})), 42'570'610);
+  EXPECT_EQ(complete_at_us(two("fastdds-2.14.5", {life(cut)})), 42'680'500);
+}
+TEST(FastDdsOutage, OfFifteenSecondsCostsNothing) {
+  const std::string cut =
+      "outages: [{from: 0, to: 1, start: 9900ms, end: 24900ms}, {from: 1, to: 0, start: 9900ms, "
+      "end: 24900ms}]";
+  const RunResult run = simulate(two("fastdds-2.6.11", {life(cut)}));
+  EXPECT_EQ(run.recovery_time, Nanoseconds{});
+  EXPECT_EQ(run.counts.initial_data,
+            simulate(two("fastdds-2.6.11", {life("")})).counts.initial_data);
+}
+/// 1 last hears 0 at 6.5; its successor is complete long before that is forgotten.
+TEST(FastDdsDeath, IsOverWhenTheLeaseIs) {
+  const std::string death =
+      "restarts: [{participant: 0, stop: 8s, start: 10s, identity: new}], lease: ";
+  EXPECT_EQ(complete_at_us(two("fastdds-2.6.11", {life(death + "20s")})), 26'500'100);
+  EXPECT_EQ(complete_at_us(two("fastdds-2.6.11", {life("mute: [{participant: 0, from: 8s}]")})),
+            26'500'100);
+}
+/// The only answer to its first announcement comes before 1 listens; 0 announces itself at 3.5.
+TEST(FastDdsStart, MissesAnAnswerBeforeItIsReady) {
+  const auto ready_after = [](const std::string& time) {
+    Scenario scenario = two("fastdds-2.6.11", {life(""), "dds.spdp.startup_announcements=0"});
+    scenario.deployment.participants[1].ready = scenario.deployment.participants[1].start +
+                                                Nanoseconds{time == "200us" ? 200 * us : 201 * us};
+    return complete_at_us(scenario);
+  };
+  EXPECT_LT(*ready_after("200us"), 1'000'000);
+  EXPECT_GT(*ready_after("201us"), 3'000'000);
 }
 
 /// No bound or theorem says anything of it.
