@@ -130,6 +130,7 @@ void take_fastdds_outcome(Observed& observed, const FastddsOutcome& outcome) {
     if (key == "HEARTBEAT(p)") value = outcome.pdp_heartbeat;
     if (key == "ACKNACK(p)") value = outcome.pdp_acknack;
     if (key == "GAP") value = outcome.gap;
+    if (key == "missing") value += outcome.held_in_vain;
   }
 }
 }  // namespace

@@ -144,6 +144,14 @@ void begin_life(World& w) {
   w.ended = ends_complete(w);
 }
 
+std::int64_t count_held_in_vain(const World& w) {
+  std::int64_t count = 0;
+  for (Id j = 0; j < w.participants.size(); ++j) {
+    for (const Id i : w.participants.at(j).known) count += holds_in_vain(w, i, j) ? 1 : 0;
+  }
+  return count;
+}
+
 void get_to_know(World& w, Id i, Id j) {
   const bool is_new = w.participants.at(j).known.insert(i).second;
   if (!is_new || !holds_in_vain(w, i, j) || w.makes(Mistake::holds_the_dead)) return;
@@ -222,10 +230,7 @@ void heard(World& w, Id j, Id i) {
 
 void lease_check(World& w, Id i, Id j) {
   const Time end = w.participants.at(j).forgets.at(i);
-  if (w.now >= end) {
-    forget(w, i, j);
-    return note_completion(w);
-  }
+  if (w.now >= end) return forget(w, i, j);
   schedule(w, end, EventClass::protocol, lease_event(i, j));
 }
 

@@ -22,6 +22,8 @@ struct FastddsOutcome : Outcome {
   std::int64_t pdp_heartbeat = 0;
   std::int64_t pdp_acknack = 0;
   std::int64_t gap = 0;
+  /// How many know somebody who is gone for ever, or will be.
+  std::int64_t held_in_vain = 0;
 };
 
 /// Runs the scenario as `run` does. Takes the profile for one of `implementation: fastdds`,

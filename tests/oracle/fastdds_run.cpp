@@ -258,9 +258,10 @@ FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mi
       if (!is_void(w, std::get<1>(key), event)) process(w, event);
     }
     if (actor) finish(w, *actor);
-    if (scenario.deployment.life) w.ended = ends_complete(w);
+    if (scenario.deployment.life) note_completion(w);
   }
   w.outcome.missing = missing_descriptors(w);
+  w.outcome.held_in_vain = count_held_in_vain(w);
   take_counts(w);
   return w.outcome;
 }

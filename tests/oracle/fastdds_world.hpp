@@ -476,6 +476,8 @@ void schedule_creations(World& w, Id i, Time start);
 
 // fastdds_life.cpp
 void begin_life(World& w);
+/// How many who live know somebody who does not.
+[[nodiscard]] std::int64_t count_held_in_vain(const World& w);
 /// j has heard of i.
 void get_to_know(World& w, Id i, Id j);
 void schedule_returns(World& w);
