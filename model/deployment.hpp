@@ -22,9 +22,9 @@ struct Participant {
   std::uint32_t subscriptions = 0;  ///< user subscriptions, 0 … Deployment::max_endpoints
   Nanoseconds start;           ///< ≥ 0; before it the participant ignores all that reaches it
   Nanoseconds endpoints_done;  ///< ≥ start; all endpoints created (not of `implementation: paper`)
-  /// `implementation: cyclone` only. What reaches the participant before `open` is lost (≤ start,
-  /// which it is if absent); what reaches it from then on and before `ready` is received at that
-  /// time (≥ start, which it is if absent).
+  /// Under Cyclone DDS what reaches the participant before `open` is lost (≤ start, which it is if
+  /// absent), and what reaches it from then on and before `ready` is received at that time (≥ start,
+  /// which it is if absent). In a life under Fast DDS what reaches it before `ready` is lost.
   std::optional<Nanoseconds> open = {};
   std::optional<Nanoseconds> ready = {};
   /// Its own profile, of the implementation of the scenario's; absent: it has that one.

@@ -118,8 +118,10 @@ const char* headline_of(Health health) {
 }
 
 RunHealth health_of(const model::Scenario& scenario, const model::RunResult& result) {
-  if (result.completed() && result.end != model::RunEnd::completed) {
-    // What the channels carried after discovery does not count.
+  const bool goes_on = scenario.run_until != model::RunUntil::completion;
+  if (goes_on && result.completed() && result.end != model::RunEnd::completed) {
+    // What the channels carried after discovery does not count. Where somebody may still be
+    // forgotten no run ends with it.
     model::Scenario discovery = scenario;
     discovery.run_until = model::RunUntil::completion;
     return health_of(discovery, model::simulate(discovery));

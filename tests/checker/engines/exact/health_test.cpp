@@ -37,6 +37,25 @@ TEST(Health, CountsFromTheEndOfTheLastFailure) {
   EXPECT_NE(Outlook{{run}}.sentence().find("after the last failure or start"), std::string::npos);
 }
 
+/// Complete again before the limit; the run goes on, since leases may still end. It was judged for
+/// ever: a run that ends with the discovery was asked for, and again.
+TEST(Health, ARunThatMayStillForgetIsJudgedOnce) {
+  model::Scenario scenario = shipped("smallest", {"dds=fastdds-2.14.5"});
+  scenario.time_limit = Nanoseconds{10'000'000'000};
+  model::Life& life = scenario.deployment.life.emplace();
+  life.lease = Nanoseconds{20'000'000'000};
+  life.outages = {{.from = 0,
+                   .to = 1,
+                   .start = Nanoseconds{5'000'000'000},
+                   .end = Nanoseconds{6'000'000'000}}};
+  const model::RunResult result = model::simulate(scenario);
+  ASSERT_TRUE(result.completed());
+  EXPECT_EQ(result.end, model::RunEnd::time_limit);
+  const RunHealth run = health_of(scenario, result);
+  EXPECT_EQ(run.completion, result.discovery_time);
+  EXPECT_EQ(run.health, Health::fine);
+}
+
 TEST(Health, ShippedScenariosAreWhatTheirNamesSay) {
   EXPECT_EQ(health("smallest").health, Health::fine);
   EXPECT_EQ(health("wired-5x20").health, Health::fine);
