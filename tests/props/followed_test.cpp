@@ -41,9 +41,11 @@ std::uint64_t deeds_of(const Scenario& scenario, model::RunOptions options) {
 
 /// Rules that are followed beside a run ask the participants that the run asks.
 TEST(FollowedMixes, AreWhatTheRulesSay) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  model::RunOptions options;
+  options.max_events = 10'000;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
     const Scenario scenario = oracle::random_mixed_scenario(seed);
-    const auto monitor = follow(scenario);
+    const auto monitor = follow(scenario, options);
     if (!monitor->violation()) continue;
     ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
                   << monitor->violation()->reason;
