@@ -23,8 +23,8 @@ struct Participant {
   Nanoseconds start;           ///< ≥ 0; before it the participant ignores all that reaches it
   Nanoseconds endpoints_done;  ///< ≥ start; all endpoints created (not of `implementation: paper`)
   /// Under Cyclone DDS what reaches the participant before `open` is lost (≤ start, which it is if
-  /// absent), and what reaches it from then on and before `ready` is received at that time (≥ start,
-  /// which it is if absent). In a life under Fast DDS what reaches it before `ready` is lost.
+  /// absent); what reaches it from then on and before `ready` is received then (≥ start, which it
+  /// is if absent). In a life under Fast DDS what reaches it before `ready` is lost.
   std::optional<Nanoseconds> open = {};
   std::optional<Nanoseconds> ready = {};
   /// Its own profile, of the implementation of the scenario's; absent: it has that one.

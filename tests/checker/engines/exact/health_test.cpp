@@ -44,10 +44,8 @@ TEST(Health, ARunThatMayStillForgetIsJudgedOnce) {
   scenario.time_limit = Nanoseconds{10'000'000'000};
   model::Life& life = scenario.deployment.life.emplace();
   life.lease = Nanoseconds{20'000'000'000};
-  life.outages = {{.from = 0,
-                   .to = 1,
-                   .start = Nanoseconds{5'000'000'000},
-                   .end = Nanoseconds{6'000'000'000}}};
+  life.outages = {
+      {.from = 0, .to = 1, .start = Nanoseconds{5'000'000'000}, .end = Nanoseconds{6'000'000'000}}};
   const model::RunResult result = model::simulate(scenario);
   ASSERT_TRUE(result.completed());
   EXPECT_EQ(result.end, model::RunEnd::time_limit);
