@@ -279,8 +279,7 @@ Applicability applicability_of(const Property& property, const model::Scenario& 
 std::string_view why_profile_is_not_changed(const model::Scenario& scenario) {
   if (!model::is_mixed(scenario)) return {};
   return "participants have DDS profiles of their own (deployment.participants[].dds); expected "
-         "one "
-         "for all, which is changed for all";
+         "one for all, which is changed for all";
 }
 
 Applicability applicability_of(std::string_view property, const model::Scenario& scenario) {

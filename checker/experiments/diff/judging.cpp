@@ -20,10 +20,6 @@ const Policy::Tolerance* tolerance_of(const Policy& policy, Measure measure) {
   return at == policy.tolerances.end() ? nullptr : &*at;
 }
 
-std::string median_text(Measure measure, const std::optional<double>& median) {
-  return median ? value_text(measure, *median) : "never";
-}
-
 bool none_finite(const std::vector<double>& values) {
   return std::ranges::none_of(values, [](double value) { return std::isfinite(value); });
 }
@@ -85,17 +81,13 @@ MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool e
     }
   }
   if (!runs.identical) judge_change(change, relative, runs.size());
-  if (is_unnoticed(change)) change.judgment = Judgment::worse;
   return change;
 }
 
 /// A discovery that is over a moment later is no worse for anybody.
 bool CostJudge::is_unnoticed(const MeasuredChange& change) const {
-  const bool judged =
-      change.judgment == Judgment::regression || change.judgment == Judgment::unclear;
-  if (change.measure != Measure::completion || !judged || !change.shift) return false;
-  const bool sure = change.shift->confidence >= single_confidence_;
-  return sure && change.shift->high <= static_cast<double>(policy_.unnoticed.count());
+  return change.measure == Measure::completion && change.shift &&
+         change.shift->high <= static_cast<double>(policy_.unnoticed.count());
 }
 
 void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
@@ -105,7 +97,8 @@ void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
     return;
   }
   const Policy::Tolerance* tolerance = tolerance_of(policy_, change.measure);
-  const double allowed = tolerance == nullptr ? infinity : tolerance->increase;
+  const double allowed =
+      tolerance == nullptr || is_unnoticed(change) ? infinity : tolerance->increase;
   const std::string medians =
       fmt::format("median {} → {}", median_text(change.measure, change.before.median),
                   median_text(change.measure, change.after.median));

@@ -23,10 +23,6 @@ const Configuration& configuration_of(const CostComparison& costs, const Rollout
   return *std::ranges::find(costs.configurations, step.configuration, &Configuration::name);
 }
 
-std::string completion_text(const std::optional<double>& median) {
-  return median ? value_text(Measure::completion, *median) : "never";
-}
-
 Table table_of(const std::vector<RolloutStep>& order, const DiffReport& report,
                const std::string& caption) {
   Table table{{{"upgraded"},
@@ -38,16 +34,17 @@ Table table_of(const std::vector<RolloutStep>& order, const DiffReport& report,
               {},
               caption};
   const Configuration& first = configuration_of(report.costs, order.front());
-  table.rows.push_back({{"nobody", completion_text(first[Measure::completion].before.median), "",
-                         value_text(Measure::messages, first[Measure::messages].before.median),
-                         first.storm_before ? "yes" : "no", ""}});
+  table.rows.push_back(
+      {{"nobody", median_text(Measure::completion, first[Measure::completion].before.median), "",
+        value_text(Measure::messages, first[Measure::messages].before.median),
+        first.storm_before ? "yes" : "no", ""}});
   for (std::size_t k = 0; k < order.size(); ++k) {
     const Configuration& one = configuration_of(report.costs, order[k]);
     const bool is_last = k + 1 == order.size();
     table.rows.push_back(
         {{fmt::format("{}host {}{}", k == 0 ? "" : "+ ", order[k].host,
                       is_last ? ", the last" : ""),
-          completion_text(one[Measure::completion].after.median),
+          median_text(Measure::completion, one[Measure::completion].after.median),
           change_text(one[Measure::completion]),
           value_text(Measure::messages, one[Measure::messages].after.median),
           one.storm_after ? "yes" : "no", badge_of(judgment_of(one, report.policy))}});

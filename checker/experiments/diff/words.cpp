@@ -31,6 +31,10 @@ std::string value_text(Measure measure, const std::optional<double>& value) {
   return value ? value_text(measure, *value) : "–";
 }
 
+std::string median_text(Measure measure, const std::optional<double>& median) {
+  return !median && measure == Measure::completion ? "never" : value_text(measure, median);
+}
+
 std::string change_text(double relative) {
   if (std::isinf(relative)) return relative > 0 ? "+∞" : "−∞";
   if (relative >= 9) return fmt::format("×{:.3g}", 1 + relative);

@@ -14,6 +14,9 @@ namespace stormproof::diff {
 /// The same; "–" if there is none.
 [[nodiscard]] std::string value_text(Measure measure, const std::optional<double>& value);
 
+/// Of a median: "never" if a completion has none, as most runs do not complete.
+[[nodiscard]] std::string median_text(Measure measure, const std::optional<double>& median);
+
 /// +0.254 → "+25 %", −0.5 → "−50 %"; from 10-fold on "×12"; "+∞" and "−∞" as such.
 [[nodiscard]] std::string change_text(double relative);
 

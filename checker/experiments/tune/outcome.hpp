@@ -26,8 +26,8 @@ namespace stormproof::tune {
 struct Outcome {
   std::optional<model::Nanoseconds> completion;  ///< absent: not complete within the limit
   double missing = 0;  ///< share of the descriptors that had not arrived then; 0 if complete
-  bool cut =
-      false;  ///< it was not simulated to its end: `missing` and `counts` are those until then
+  /// It was not simulated to its end: `missing` and `counts` are those until then.
+  bool cut = false;
   model::Counts counts;
   std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
                                          ///< do not, ascending
