@@ -3,6 +3,8 @@
 # mistakes in rules. Cases of GoogleTest; files whose cases are all of this kind are named in
 # CMakeLists.txt, behind THOROUGH. By hand, a test program runs all it has.
 set(thorough
+  # Whole searches for settings, beside short ones.
+  Fleets/TuneInLittleTime.*
   # All laws on random scenarios; seeds and random scenarios behind the first of each kind.
   Every/*LawTest.Holds*
   *.HoldsOnRandomScenarios*

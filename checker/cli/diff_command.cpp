@@ -78,7 +78,8 @@ model::config::Result<diff::DiffRequest> request_of(const DiffArguments& argumen
   request.tell_apart = !arguments.no_telling_apart;
   request.rolling = arguments.rolling;
   request.threads = arguments.jobs;
-  request.on_progress = session.on_steps();
+  request.time = Session::time();
+  request.on_progress = session.on_study();
   request.interrupted = Session::interrupted;
   return request;
 }

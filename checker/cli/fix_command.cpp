@@ -77,7 +77,7 @@ Outcome run(FixArguments& arguments, Session& session) {
     if (const auto error = folder->prepare()) return Complaint{*error};
   }
   request.on_progress = session.on_study();
-  request.seconds_left = Session::seconds_left;
+  request.time = Session::time();
   const auto report = fix::fix(request, specs);
   if (!report) return report.error();
   fix::Context context;

@@ -46,7 +46,9 @@ fuzz::FuzzOptions options_of(const FuzzArguments& arguments, std::vector<std::st
                              Session& session) {
   fuzz::FuzzOptions options;
   options.seconds = arguments.seconds;
-  if (const auto left = Session::seconds_left()) options.seconds = for_variants * *left;
+  if (const auto time = Session::time(); time.is_limited()) {
+    options.seconds = time.part(for_variants).left();
+  }
   options.runs = arguments.runs.value_or(options.seconds ? most_runs : usual_runs);
   options.seed = arguments.seed;
   options.first = arguments.first;

@@ -68,7 +68,7 @@ Outcome run(LaunchArguments& arguments, Session& session) {
   const auto report = launch::launch(request, model::config::SpecPath::standard());
   if (!report) return report.error();
   Answer answer;
-  if (Session::seconds_left() && arguments.limit.empty()) {
+  if (Session::time().is_limited() && arguments.limit.empty()) {
     answer.notes.emplace_back(
         "stormproof: --time is the time by the clock; how long a run may take is --limit");
   }

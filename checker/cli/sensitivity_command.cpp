@@ -83,7 +83,7 @@ Outcome run(SensitivityArguments& arguments, Session& session) {
   if (!described) return Complaint{described.error()};
   Description& description = *described;
   description.options.on_progress = session.on_runs();
-  description.options.seconds_left = Session::seconds_left;
+  description.options.time = Session::time();
   const sensitivity::Report report = sensitivity::analyse(*scenario, description.options);
   Answer answer;
   answer.document = document_of(report, description);

@@ -37,23 +37,23 @@ std::string time_left(double seconds, std::size_t done, std::size_t all) {
 
 }  // namespace
 
-/// Says once, if it takes more than two minutes or than it may, about how long it takes: not
-/// everybody has a line that shows progress.
+/// Says once, after the first runs of what takes a while, about how long all takes: not everybody
+/// has a line that shows progress.
 void Session::estimate(double seconds, std::size_t done, std::size_t all) {
   constexpr double first_look = 5;
-  constexpr double long_run = 120;
-  const auto left = seconds_left();
-  const double look = left ? std::min(first_look, (seconds + *left) / 4) : first_look;
-  if (has_estimated_ || seconds < look || done < first_runs) return;
+  const trials::Budget left = time();
+  const double look = std::min(first_look, (seconds + left.left()) / 4);
+  if (has_estimated_ || seconds < look || done < first_runs || done >= all) return;
   has_estimated_ = true;
   const double rest = seconds / static_cast<double>(done) * static_cast<double>(all - done);
-  const std::string words = fmt::format("stormproof: {} take about {:.0f} s here",
-                                        report::plural(all, "run"), seconds + rest);
-  if (left && rest > *left) {
-    say(words + "; not all of them fit into --time");
-  } else if (!left && rest > long_run) {
-    say(words + "; --time 60s stops after a minute, and says what is known");
+  std::string words = fmt::format("stormproof: {} take about {:.0f} s here",
+                                  report::plural(all, "run"), seconds + rest);
+  if (rest > left.left()) {
+    words += "; not all of them fit into --time";
+  } else if (!left.is_limited()) {
+    words += "; --time 60s plans for a minute, or stops after it, and says what is known";
   }
+  say(words);
 }
 
 std::function<bool(std::size_t, std::size_t)> Session::on_runs() {
@@ -72,6 +72,7 @@ std::function<bool(std::string_view, std::size_t, std::size_t)> Session::on_stud
     const double passed = seconds() - started;
     estimate(passed, done, about);
     return proceed([&] {
+      if (done == 0) return fmt::format("{}, {:.0f} s", what, seconds());
       return fmt::format("{}: {} of about {} runs{}", what, report::grouped(done),
                          report::grouped(about), time_left(passed, done, about));
     });

@@ -14,6 +14,7 @@
 
 #include "checker/cli/given.hpp"
 #include "checker/cli/run_monitor.hpp"
+#include "checker/experiments/trials/budget.hpp"
 
 namespace stormproof::model {
 struct Progress;
@@ -55,14 +56,15 @@ class Session {
   /// The same for reading captures.
   [[nodiscard]] std::function<bool(std::uint64_t packets)> on_packets();
 
-  /// The same for a study of many runs: "WHAT: 40 of about 440 runs, about 12 s left".
+  /// The same for a study of many runs: "WHAT: 40 of about 440 runs, about 12 s left"; of a part
+  /// that makes none, "WHAT, 12 s".
   [[nodiscard]] std::function<bool(std::string_view what, std::size_t done, std::size_t about)>
   on_study();
 
   [[nodiscard]] double seconds() const { return line_.seconds(); }
-  /// Of `--time`; absent: as long as it takes.
-  [[nodiscard]] static std::optional<double> seconds_left() {
-    return InterruptGuard::seconds_left();
+  /// Of `--time`.
+  [[nodiscard]] static trials::Budget time() {
+    return trials::Budget{InterruptGuard::seconds_left};
   }
 
  private:

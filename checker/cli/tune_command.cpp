@@ -8,7 +8,6 @@
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/tune_files.hpp"
 #include "checker/engines/smt/claims.hpp"
-#include "checker/experiments/trials/sample_runs.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 #include "checker/experiments/tune/tune_report.hpp"
 #include "checker/presentation/text/command_line.hpp"
@@ -107,7 +106,7 @@ std::optional<InputError> refuse_unwritable(const tune::Subject& subject) {
 
 /// What the report says around the study.
 tune::Context context_of(const TuneArguments& arguments, const tune::Subject& subject,
-                         const tune::Report& report, const TuneFiles& written, Session& session) {
+                         const tune::Report& report, const TuneFiles& written) {
   tune::Context context{.scenario = arguments.scenario,
                         .overrides = arguments.overrides,
                         .subject = subject,
@@ -117,19 +116,15 @@ tune::Context context_of(const TuneArguments& arguments, const tune::Subject& su
   if (report.answer != tune::Answer::better) return context;
   const tune::Row& best = report.rows[*report.recommended];
   context.prerequisites = tune::prerequisites(subject, best.scenario.dds);
-  if (const auto file = written.files.find(best.name); file != written.files.end()) {
-    context.repeat = repeat_line(arguments, subject, report, file->second);
-    context.loading = tune::how_to_load(subject.vendor, file->second);
+  if (best.plan) {
+    context.prerequisites.push_back(
+        fmt::format("Start processes {}; '{} launch {} --export DIR' writes launch files and "
+                    "systemd units that do.",
+                    launch::words_of(*best.plan), report::program(), arguments.scenario));
   }
-  trials::SampleOptions runs;
-  runs.samples = report.is_sampled ? trials::usual_samples : 1;
-  runs.first_seed = report.compared.first;
-  runs.start_jitter = arguments.options.start_jitter;
-  runs.threads = arguments.options.threads;
-  runs.on_progress = session.on_runs();
-  if (const auto after = trials::outlook_of(trials::sample_runs(best.scenario, runs))) {
-    context.is_cured = after->health() == exact::Health::fine;
-    context.after = after->headline() + ": " + after->sentence();
+  if (const auto file = written.files.find(best.name); file != written.files.end()) {
+    if (!best.plan) context.repeat = repeat_line(arguments, subject, report, file->second);
+    context.loading = tune::how_to_load(subject.vendor, file->second);
   }
   if (arguments.check) context.check = check_lines(report, context.newly_violated);
   return context;
@@ -144,13 +139,14 @@ Outcome run(TuneArguments& arguments, Session& session) {
   TuneOutput output{arguments.output};
   if (const auto error = output.prepare()) return Complaint{*error};
   arguments.options.on_progress = session.on_study();
-  arguments.options.seconds_left = Session::seconds_left;
+  arguments.options.time = Session::time();
+  arguments.options.plans = true;
   const auto report = tune::tune(*subject, arguments.options);
   if (!report) return report.error();
   const std::string origin =
       fmt::format("stormproof tune on {} (seed {})", arguments.scenario, arguments.options.seed);
   const TuneFiles written = write_files(output, origin, *subject, *report);
-  const tune::Context context = context_of(arguments, *subject, *report, written, session);
+  const tune::Context context = context_of(arguments, *subject, *report, written);
   Answer answer;
   if (written.error) answer.complaint = *written.error;
   answer.document = document_of(*report, context);

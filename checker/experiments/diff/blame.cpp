@@ -43,8 +43,8 @@ double severity(const Configuration& configuration) {
 
 class BlameStudy {
  public:
-  BlameStudy(const CostRequest& request, const ReviewedPoint& point, std::size_t samples)
-      : request_{request}, point_{point}, samples_{samples} {}
+  BlameStudy(const CostRequest& request, const ReviewedPoint& point, const PairedRuns& runs)
+      : request_{request}, point_{point}, samples_{runs.size()}, cut_at_{runs.cut_at} {}
 
   /// Nothing if the keys cannot be set back; `interrupted` if it was stopped.
   std::optional<Blame::Entry> revert(const std::vector<std::string>& keys) {
@@ -54,11 +54,8 @@ class BlameStudy {
     points.front().candidate.dds = *dds;
     model::choose_multicast(points.front().candidate);
     std::vector<PairedRuns> runs(1);
-    RunSettings settings{request_.first_seed, request_.threads, {}};
-    settings.on_progress = [this](std::size_t, std::size_t) {
-      return !request_.on_progress || request_.on_progress("which knob does it");
-    };
-    interrupted = !add_runs(points, {{0, samples_}}, settings, runs);
+    runs.front().cut_at = cut_at_;
+    interrupted = !add_runs(points, {{0, samples_}}, request_.first_seed, request_.runner, runs);
     if (interrupted) return std::nullopt;
     CostJudge judge{request_.policy, points, 1};
     std::vector<Configuration> judged{judge.judge(points.front(), runs.front())};
@@ -78,6 +75,7 @@ class BlameStudy {
   const CostRequest& request_;
   const ReviewedPoint& point_;
   std::size_t samples_;
+  std::optional<model::Nanoseconds> cut_at_;
 };
 
 /// The pairs to try after the singles.
@@ -139,7 +137,8 @@ std::optional<Blame> blame(const std::vector<KnobChange>& changes, const CostReq
     return std::nullopt;
   }
   const auto point = std::ranges::find(request.grid.points, worst_one->name, &ReviewedPoint::name);
-  BlameStudy study{request, *point, worst_one->samples};
+  const auto place = static_cast<std::size_t>(point - request.grid.points.begin());
+  BlameStudy study{request, *point, costs.runs[place]};
   Blame found;
   found.configuration = worst_one->name;
   const auto add = [&](const std::vector<std::string>& reverted) {

@@ -44,8 +44,8 @@ std::string keys_text(const Configuration& configuration) {
 }
 
 std::string both_text(const MeasuredChange& change) {
-  return fmt::format("{} → {}, {}", median_text(change.measure, change.before.median),
-                     median_text(change.measure, change.after.median), change_text(change));
+  return fmt::format("{} → {}, {}", median_text(change, change.before.median),
+                     median_text(change, change.after.median), change_text(change));
 }
 
 /// By how much the completion changes; those that never complete are the worst.
@@ -78,8 +78,8 @@ Table table_of(const Order& order, std::size_t from, std::size_t to, const Polic
     const Configuration& one = *order[k];
     const MeasuredChange& completion = one[Measure::completion];
     table.rows.push_back({{values_text(one), badge_of(judgment_of(one, policy)),
-                           median_text(Measure::completion, completion.before.median),
-                           median_text(Measure::completion, completion.after.median),
+                           median_text(completion, completion.before.median),
+                           median_text(completion, completion.after.median),
                            one.identical_runs ? "the same runs" : change_text(completion),
                            one.identical_runs ? "" : change_text(one[Measure::messages]),
                            report::grouped(one.samples), both_text(one[Measure::repair_data]),
@@ -119,8 +119,8 @@ Table details_of(const char* which, const Configuration& configuration) {
     const bool silent = change.before.max == 0.0 && change.after.max == 0.0;
     if (silent) continue;
     table.rows.push_back(
-        {{words_of(change.measure), median_text(change.measure, change.before.median),
-          median_text(change.measure, change.after.median), change_text(change),
+        {{words_of(change.measure), median_text(change, change.before.median),
+          median_text(change, change.after.median), change_text(change),
           change.judgment == Judgment::same ? report::Text{} : badge_of(change.judgment)}});
   }
   return table;

@@ -2,13 +2,12 @@
 // needs, judges them, and finds the storm-free margin.
 #pragma once
 
-#include <functional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "checker/experiments/diff/judging.hpp"
 #include "checker/experiments/diff/measured_runs.hpp"
+#include "checker/experiments/trials/unasked.hpp"
 
 namespace stormproof::diff {
 
@@ -18,18 +17,20 @@ struct CostRequest {
   std::size_t samples = 1;       ///< schedules of each deployment at first
   std::size_t most_samples = 1;  ///< of a deployment that fewer leave unclear
   std::uint64_t first_seed = 0;
-  std::size_t threads = 0;
-  std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
+  trials::Runner& runner;
+  trials::Budget time;  ///< pairs are made to fit
 };
 
 struct CostAnswer {
   CostComparison comparison;
   std::vector<PairedRuns> runs;  ///< of each deployment of the grid; none if it was interrupted
+  trials::Unasked unasked;
   bool interrupted = false;
 };
 
 /// Deployments without drawn start times run once: their runs are facts. The others start with
-/// `samples` schedules; those that stay unclear get twice as many, up to `most_samples`.
+/// `samples` schedules; those that stay unclear get twice as many, up to `most_samples`, if there
+/// is time. Where there is none for the first ones, runs are cut, and then there are fewer.
 [[nodiscard]] CostAnswer compare_costs(const CostRequest& request);
 
 /// The storm-free margin of both profiles, over the deployments of a grid: the threshold of the

@@ -98,6 +98,7 @@ void describe(V& v, const Configuration& configuration) {
   v("descriptor_count", configuration.descriptors);
   v("runs", configuration.samples);
   v("identical_runs", configuration.identical_runs);
+  v("cut_at_ns", configuration[Measure::completion].cut_at);
   v("storm_before", configuration.storm_before);
   v("storm_after", configuration.storm_after);
   v("measures", MeasuresOf{configuration});

@@ -20,10 +20,24 @@ namespace config = model::config;
 
 namespace {
 
+/// Of the time, what pairs of runs may take if verdicts are compared as well; of what is left then,
+/// what these may; and so on.
+constexpr double for_costs = 0.5;
+constexpr double for_verdicts = 0.8;
+constexpr double for_telling_apart = 0.8;
+/// A pair of runs that is watched takes so many times as long as one that is not.
+constexpr std::size_t watched_factor = 25;
+
 class DiffStudy {
  public:
   DiffStudy(const DiffRequest& request, const RollingGrid& rolling, const ReviewedPoint& checked)
-      : request_{request}, rolling_{rolling}, grid_{rolling.grid}, checked_{checked} {
+      : request_{request},
+        rolling_{rolling},
+        grid_{rolling.grid},
+        checked_{checked},
+        runner_{request.threads, [this](std::size_t pairs, std::size_t all) {
+                  return progress(doing_, pairs, all);
+                }} {
     report_.base = request.base;
     report_.candidate = request.candidate;
     report_.policy = request.policy;
@@ -57,8 +71,8 @@ class DiffStudy {
 
   bool goes_on() const { return !report_.interrupted; }
 
-  bool progress(std::string_view what) {
-    return !request_.on_progress || request_.on_progress(what);
+  bool progress(std::string_view what, std::size_t pairs = 0, std::size_t all = 0) {
+    return !request_.on_progress || request_.on_progress(what, pairs, all);
   }
 
   void compare_runs() {
@@ -70,10 +84,11 @@ class DiffStudy {
                               samples,
                               may_grow ? request_.policy.most_samples : samples,
                               request_.seed.value_or(grid_.first_seed),
-                              request_.threads,
-                              [this](std::string_view what) { return progress(what); }};
+                              runner_,
+                              request_.time.part(request_.check_verdicts ? for_costs : 1)};
     const CostAnswer answer = compare_costs(request);
     report_.costs = answer.comparison;
+    report_.unasked = answer.unasked;
     report_.interrupted = answer.interrupted;
     if (!goes_on()) return;
     if (request_.rolling) {
@@ -83,23 +98,44 @@ class DiffStudy {
     }
     report_.margin = compare_margins(request_.base.value, request_.candidate.value, grid_.points,
                                      report_.costs, request_.policy);
-    report_.blame = blame(report_.profiles.changes, request, answer);
+    doing_ = "which knob does it";
+    if (const std::size_t knobs = report_.profiles.changes.size();
+        knobs * answer.comparison.samples <= pace_.fitting(request_.time, runner_.finished())) {
+      report_.blame = blame(report_.profiles.changes, request, answer);
+    } else {
+      report_.unasked.note("knobs set back, to see which does it", 0, knobs);
+    }
     report_.interrupted = !progress("costs");
   }
 
   void check() {
-    const VerdictRequest request{checked_.name,
-                                 checked_.base,
-                                 checked_.candidate,
-                                 request_.seed.value_or(grid_.first_seed),
-                                 static_cast<std::uint32_t>(std::min<std::size_t>(
-                                     request_.samples.value_or(request_.policy.samples), 100)),
-                                 request_.threads,
-                                 [this](std::string_view what) { return progress(what); },
-                                 request_.interrupted};
+    const trials::Budget time = request_.time.part(for_verdicts);
+    const VerdictRequest request{
+        checked_.name,
+        checked_.base,
+        checked_.candidate,
+        request_.seed.value_or(grid_.first_seed),
+        static_cast<std::uint32_t>(verdict_samples()),
+        request_.threads,
+        [&](std::string_view what) { return !time.is_over() && progress(what); },
+        [&] { return time.is_over() || (request_.interrupted && request_.interrupted()); }};
     VerdictAnswer answer = compare_verdicts(request, request_.policy);
     report_.verdicts = std::move(answer.comparison);
-    report_.interrupted = answer.interrupted;
+    report_.interrupted = answer.interrupted && !time.is_over();
+    if (answer.interrupted && time.is_over()) {
+      report_.unasked.left_out.emplace_back("verdicts of properties");
+    }
+  }
+
+  /// Runs that verdicts rest on, of each side: fewer if there is no time for all.
+  std::size_t verdict_samples() {
+    const std::size_t wanted =
+        std::min<std::size_t>(request_.samples.value_or(request_.policy.samples), 100);
+    if (!request_.time.is_limited()) return wanted;
+    const std::size_t fits = pace_.fitting(request_.time, runner_.finished()) / watched_factor;
+    const std::size_t samples = std::clamp<std::size_t>(fits, 1, wanted);
+    report_.unasked.note("runs for the verdicts", samples, wanted);
+    return samples;
   }
 
   /// From the least deployment of the grid whose runs differ.
@@ -115,8 +151,10 @@ class DiffStudy {
     if (least != nullptr) {
       start = &*std::ranges::find(grid_.points, least->name, &ReviewedPoint::name);
     }
+    const trials::Budget time = request_.time.part(for_telling_apart);
     report_.telling_apart =
-        tell_apart(start->base, request_.base.value, request_.candidate.value, [this] {
+        tell_apart(start->base, request_.base.value, request_.candidate.value, [&, this] {
+          if (time.is_over()) return false;
           report_.interrupted = !progress("least scenario that tells them apart");
           return goes_on();
         });
@@ -126,6 +164,9 @@ class DiffStudy {
   const RollingGrid& rolling_;
   const ReviewedGrid& grid_;
   const ReviewedPoint& checked_;
+  const char* doing_ = "costs";
+  trials::Runner runner_;
+  const trials::Pace pace_{request_.time, 0};
   DiffReport report_;
 };
 

@@ -16,6 +16,9 @@
 #include "checker/experiments/statistics/measure.hpp"
 #include "checker/experiments/statistics/paired.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/budget.hpp"
+#include "checker/experiments/trials/runner.hpp"
+#include "checker/experiments/trials/unasked.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/spec_path.hpp"
 #include "model/scenario.hpp"
@@ -103,6 +106,8 @@ struct MeasuredChange {
   /// The relative change, candidate / base − 1, with the ends of its interval. Absent if the median
   /// before is 0 or there is no shift.
   std::optional<double> relative, relative_low, relative_high;
+  /// Where runs were cut, for lack of time; absent: they were not.
+  std::optional<model::Nanoseconds> cut_at;
   Judgment judgment = Judgment::same;
   std::string reason;  ///< why it is judged so; empty for `same`
 };
@@ -262,6 +267,7 @@ struct DiffReport {
   MarginComparison margin;
   TellingApart telling_apart;
   std::optional<Blame> blame;
+  trials::Unasked unasked;
   bool interrupted = false;
   double seconds = 0;
 
@@ -285,8 +291,9 @@ struct DiffRequest {
   bool tell_apart = true;
   bool rolling = false;  ///< hosts get the candidate one by one
   std::size_t threads = 0;
-  std::function<bool(std::string_view what)> on_progress;  ///< false interrupts
-  std::function<bool()> interrupted;                       ///< the same, asked by any thread
+  trials::Budget time;                ///< pairs of runs and verdicts are made to fit
+  trials::StudyProgress on_progress;  ///< false interrupts; told of pairs of runs
+  std::function<bool()> interrupted;  ///< the same, asked by any thread
 };
 
 /// Errors: a grid or scenario that cannot be read, a grid that sweeps the DDS profile.

@@ -140,7 +140,8 @@ void add_verdicts(Blocks& blocks, const DiffReport& report, const Files& files) 
   const VerdictComparison& verdicts = report.verdicts;
   Section section{"Verdicts", "verdicts"};
   if (!verdicts.done) {
-    section.blocks.emplace_back(Paragraph{"Left out by request."});
+    section.blocks.emplace_back(
+        Paragraph{report.unasked.lacked_time() ? "Left out." : "Left out by request."});
     blocks.emplace_back(std::move(section), Audience::documents);
     return;
   }
@@ -237,6 +238,9 @@ Document document_of(const DiffReport& report, const Files& files) {
                                      report.candidate.reference, report.policy.name);
   Blocks& blocks = document.blocks;
   add_reasons(blocks, report);
+  Facts unasked;
+  add_unasked(unasked, report.unasked);
+  if (!unasked.rows.empty()) blocks.emplace_back(std::move(unasked));
   add_knobs(blocks, report);
   add_verdicts(blocks, report, files);
   add_rollouts(blocks, report);

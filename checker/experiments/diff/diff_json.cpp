@@ -236,6 +236,7 @@ void describe(V& v, const ReportWithFiles& shown) {
   v("margin", ran ? std::optional{report.margin} : std::nullopt);
   v("blame", report.blame);
   v("telling_apart", apart);
+  v("not_asked", sentences_of(report.unasked));
 }
 
 }  // namespace

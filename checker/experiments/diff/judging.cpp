@@ -39,6 +39,25 @@ std::size_t limits_of(const Policy& policy, const ReviewedPoint& point) {
 
 }  // namespace
 
+void KnownChange::add_relative_to(statistics::PairedDifferences& changes) const {
+  if (is_exact()) {
+    changes.add_relative(before, after);
+    return;
+  }
+  const double change = statistics::relative_change(before, after);
+  changes.add_between(cut_before ? -1 : change, cut_after ? infinity : change);
+}
+
+KnownChange known_change(const PairedRuns& runs, std::size_t k, Measure measure) {
+  const auto known = [&](const RunValues& run) {
+    const double value = run[static_cast<std::size_t>(measure)];
+    return std::isinf(value) && runs.is_cut(run) ? static_cast<double>(runs.cut_at->count())
+                                                 : value;
+  };
+  return {known(runs.before[k]), known(runs.after[k]), runs.is_cut(runs.before[k]),
+          runs.is_cut(runs.after[k])};
+}
+
 CostJudge::CostJudge(const Policy& policy, const std::vector<ReviewedPoint>& points,
                      std::size_t looks)
     : policy_{policy} {
@@ -65,8 +84,14 @@ MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool e
   statistics::PairedDifferences differences;
   statistics::PairedDifferences ratios;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    differences.add(after[k] - before[k]);
-    ratios.add_relative(before[k], after[k]);
+    const KnownChange known = known_change(runs, k, measure);
+    if (known.is_exact()) {
+      differences.add(after[k] - before[k]);
+    } else {
+      differences.add_between(known.cut_before ? -infinity : known.after - known.before,
+                              known.cut_after ? infinity : known.after - known.before);
+    }
+    known.add_relative_to(ratios);
   }
   const auto shift_of = [&](const statistics::PairedDifferences& pairs) {
     return exact ? pairs.fact() : pairs.shift(single_confidence_);
@@ -80,6 +105,7 @@ MeasuredChange CostJudge::change(Measure measure, const PairedRuns& runs, bool e
       change.relative_high = relative.high;
     }
   }
+  change.cut_at = runs.cut_at;
   if (!runs.identical) judge_change(change, relative, runs.size());
   return change;
 }
@@ -92,7 +118,7 @@ bool CostJudge::is_unnoticed(const MeasuredChange& change) const {
 
 void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
                              std::size_t runs) const {
-  if (!change.before.min && !change.after.min) {  // only the completion can have no value
+  if (!change.before.min && !change.after.min && !change.cut_at) {  // only the completion has none
     change.reason = "discovery completes in no run of either profile";
     return;
   }
@@ -100,8 +126,8 @@ void CostJudge::judge_change(MeasuredChange& change, const Shift& relative,
   const double allowed =
       tolerance == nullptr || is_unnoticed(change) ? infinity : tolerance->increase;
   const std::string medians =
-      fmt::format("median {} → {}", median_text(change.measure, change.before.median),
-                  median_text(change.measure, change.after.median));
+      fmt::format("median {} → {}", median_text(change, change.before.median),
+                  median_text(change, change.after.median));
   if (relative.confidence < single_confidence_) {
     if (tolerance == nullptr) return;
     change.judgment = Judgment::unclear;

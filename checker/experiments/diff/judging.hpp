@@ -13,6 +13,16 @@
 
 namespace stormproof::diff {
 
+/// A measure of a pair of runs. Of one that was cut only the least is known: that it is more.
+struct KnownChange {
+  double before = 0, after = 0;
+  bool cut_before = false, cut_after = false;
+
+  [[nodiscard]] bool is_exact() const { return !cut_before && !cut_after; }
+  void add_relative_to(statistics::PairedDifferences& changes) const;
+};
+[[nodiscard]] KnownChange known_change(const PairedRuns& runs, std::size_t k, Measure measure);
+
 class CostJudge {
  public:
   /// `looks`: how often the configurations may be judged, each time with more runs.

@@ -105,7 +105,7 @@ std::vector<PooledChange> CostJudge::settle(std::vector<Configuration>& configur
       if (configurations[k].measures[place].judgment != Judgment::unclear) continue;
       ++pooled.configurations;
       for (std::size_t run = 0; run < runs[k]->size(); ++run) {
-        changes.add_relative(runs[k]->before[run][place], runs[k]->after[run][place]);
+        known_change(*runs[k], run, tolerance.measure).add_relative_to(changes);
       }
     }
     if (pooled.configurations == 0) continue;

@@ -2,7 +2,6 @@
 #include "checker/experiments/diff/measured_runs.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "checker/experiments/statistics/completion.hpp"
 #include "checker/experiments/trials/under_seed.hpp"
@@ -105,25 +104,26 @@ std::vector<double> PairedRuns::column(const std::vector<RunValues>& runs, Measu
 }
 
 bool add_runs(const std::vector<ReviewedPoint>& points, const std::vector<RunsWanted>& wanted,
-              const RunSettings& settings, std::vector<PairedRuns>& runs) {
+              std::uint64_t first_seed, trials::Runner& runner, std::vector<PairedRuns>& runs) {
   std::vector<References> references;
   for (const ReviewedPoint& point : points) references.push_back(references_of(point));
   std::vector<Job> jobs;
   for (const auto& [point, samples] : wanted) {
     for (std::size_t k = runs[point].size(); k < samples; ++k) jobs.push_back({point, k});
   }
-  trials::Runner runner{settings.threads, settings.on_progress};
   const auto pairs = runner.run(jobs.size(), [&](std::size_t k) -> std::optional<Pair> {
     const auto& [point, sample] = jobs[k];
-    const Scenario base = trials::under_seed(points[point].base, settings.first_seed + sample);
+    Scenario base = trials::under_seed(points[point].base, first_seed + sample);
     Scenario candidate = points[point].candidate;
-    if (base.deployment.schedule) candidate.deployment.draw_schedule(settings.first_seed + sample);
+    if (base.deployment.schedule) candidate.deployment.draw_schedule(first_seed + sample);
+    if (const auto& cut = runs[point].cut_at) base.time_limit = candidate.time_limit = *cut;
     const auto before = runner.simulate(base);
     const auto after = before ? runner.simulate(candidate) : std::nullopt;
     if (!after) return std::nullopt;
     return Pair{values_of(*before, references[point].first),
                 values_of(*after, references[point].second), exact::health_of(base, *before).health,
-                exact::health_of(candidate, *after).health, same_results(*before, *after)};
+                exact::health_of(candidate, *after).health,
+                same_results(*before, *after) && (!runs[point].cut_at || before->completed())};
   });
   std::vector<bool> whole(points.size(), true);
   for (std::size_t k = 0; k < jobs.size(); ++k) {

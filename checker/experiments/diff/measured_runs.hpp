@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "checker/engines/exact/health.hpp"
@@ -21,8 +23,14 @@ struct PairedRuns {
   std::vector<RunValues> before, after;
   std::vector<exact::Health> health_before, health_after;
   bool identical = true;  ///< so far, every pair had the same result in every number
+  /// Where runs of the deployment are cut, for lack of time: what is not complete by then takes at
+  /// least that long, and its other values are those until then. Absent: they are not.
+  std::optional<model::Nanoseconds> cut_at;
 
   [[nodiscard]] std::size_t size() const { return before.size(); }
+  [[nodiscard]] bool is_cut(const RunValues& run) const {
+    return cut_at && std::isinf(run[static_cast<std::size_t>(Measure::completion)]);
+  }
   [[nodiscard]] static std::vector<double> column(const std::vector<RunValues>& runs,
                                                   Measure measure);
 };
@@ -32,16 +40,12 @@ struct RunsWanted {
   std::size_t samples = 0;  ///< altogether: those that are there already count
 };
 
-struct RunSettings {
-  std::uint64_t first_seed = 0;  ///< run k of a deployment has the schedule of seed first_seed + k
-  std::size_t threads = 0;       ///< 0: one for each core
-  trials::Progress on_progress;  ///< told of pairs
-};
-
 /// Adds the missing runs to `runs`, which has one element for each point; all cores work on all
-/// points. Returns false if it was stopped: then points get all of their missing runs or none.
+/// points, and the runner is told of pairs. Run k of a deployment has the schedule of seed
+/// `first_seed` + k. Returns false if it was stopped: then points get all of their missing runs or
+/// none.
 [[nodiscard]] bool add_runs(const std::vector<ReviewedPoint>& points,
-                            const std::vector<RunsWanted>& wanted, const RunSettings& settings,
-                            std::vector<PairedRuns>& runs);
+                            const std::vector<RunsWanted>& wanted, std::uint64_t first_seed,
+                            trials::Runner& runner, std::vector<PairedRuns>& runs);
 
 }  // namespace stormproof::diff

@@ -28,6 +28,14 @@ void add_verdicts(const DiffReport& report, Reasons& reasons) {
   }
 }
 
+/// What the policy asks and there was no time for is not known to be no regression.
+void add_unasked(const DiffReport& report, Reasons& reasons) {
+  if (!report.policy.verdicts) return;
+  for (const std::string& what : report.unasked.left_out) {
+    reasons.push_back({Judgment::unclear, "there was no time for " + what});
+  }
+}
+
 void add_costs(const DiffReport& report, Reasons& reasons) {
   for (const Configuration& configuration : report.costs.configurations) {
     for (const MeasuredChange& change : configuration.measures) {
@@ -80,6 +88,7 @@ void summarize(DiffReport& report) {
   add_profiles(report, reasons);
   add_verdicts(report, reasons);
   add_costs(report, reasons);
+  add_unasked(report, reasons);
   reasons.push_back({report.margin.judgment, "storm-free margin: " + report.margin.reason});
   if (report.interrupted) {
     reasons.push_back({Judgment::unclear, "the comparison was interrupted"});

@@ -35,6 +35,11 @@ std::string median_text(Measure measure, const std::optional<double>& median) {
   return !median && measure == Measure::completion ? "never" : value_text(measure, median);
 }
 
+std::string median_text(const MeasuredChange& change, const std::optional<double>& median) {
+  const bool is_cut = !median && change.cut_at && change.measure == Measure::completion;
+  return is_cut ? "> " + report::duration(*change.cut_at) : median_text(change.measure, median);
+}
+
 std::string change_text(double relative) {
   if (std::isinf(relative)) return relative > 0 ? "+∞" : "−∞";
   if (relative >= 9) return fmt::format("×{:.3g}", 1 + relative);

@@ -16,6 +16,9 @@ namespace stormproof::diff {
 
 /// Of a median: "never" if a completion has none, as most runs do not complete.
 [[nodiscard]] std::string median_text(Measure measure, const std::optional<double>& median);
+/// The same; "> 8.1 s" if runs were cut then.
+[[nodiscard]] std::string median_text(const MeasuredChange& change,
+                                      const std::optional<double>& median);
 
 /// +0.254 → "+25 %", −0.5 → "−50 %"; from 10-fold on "×12"; "+∞" and "−∞" as such.
 [[nodiscard]] std::string change_text(double relative);

@@ -28,6 +28,8 @@ namespace {
 
 /// Of the time, what is left for the last word.
 constexpr double for_verdict = 0.25;
+/// Of the time to try, what the search for settings may take.
+constexpr double for_settings = 0.5;
 /// A cure takes no longer than this times what discovery takes before.
 constexpr double no_slower = 1.1;
 /// Distance between the seeds of what is tried and of the verdict.
@@ -49,7 +51,7 @@ class Study {
   Study(const Request& request, const SpecPath& specs)
       : request_{request},
         specs_{specs},
-        allowed_{seconds_left()},
+        time_to_try_{request.time.part(1 - for_verdict)},
         trying_{request.threads,
                 [this](std::size_t runs, std::size_t) { return may_try() && goes_on(runs); }},
         judging_{request.threads, [this](std::size_t, std::size_t) { return goes_on(0); }} {}
@@ -82,13 +84,7 @@ class Study {
 
  private:
   [[nodiscard]] const Scenario& scenario() const { return report_.candidates.scenario; }
-  [[nodiscard]] std::optional<double> seconds_left() const {
-    return request_.seconds_left ? request_.seconds_left() : std::nullopt;
-  }
-  [[nodiscard]] bool may_try() const {
-    const auto left = seconds_left();
-    return !left || *left > for_verdict * allowed_.value_or(0);
-  }
+  [[nodiscard]] bool may_try() const { return !time_to_try_.is_over(); }
   [[nodiscard]] bool goes_on(std::size_t runs) const {
     return !request_.on_progress || request_.on_progress(doing_, runs, std::max(runs, about_));
   }
@@ -197,11 +193,7 @@ class Study {
       about_ = about;
       return may_try() && goes_on(runs);
     };
-    options.seconds_left = [this]() -> std::optional<double> {
-      const auto left = seconds_left();
-      if (!left) return left;
-      return (*left - for_verdict * allowed_.value_or(0)) / 2;
-    };
+    options.time = time_to_try_.part(for_settings);
     const auto one = compare::tuned_candidate(report_.candidates, request_.scenario,
                                               request_.overrides, options, specs_);
     if (!one) return one.error();
@@ -306,7 +298,7 @@ class Study {
 
   const Request& request_;
   const SpecPath& specs_;
-  std::optional<double> allowed_;
+  trials::Budget time_to_try_;
   std::string preset_;
   std::uint32_t own_size_ = 0;
   std::string doing_;

@@ -37,8 +37,8 @@ struct Request {
   std::uint64_t seed = 0;             ///< of what is tried; before and after have others
   model::Nanoseconds start_jitter{};  ///< each process starts up to this much later
   std::size_t threads = 0;
-  std::function<std::optional<double>()> seconds_left;  ///< by the clock; nothing: no limit
-  trials::StudyProgress on_progress;                    ///< false interrupts
+  trials::Budget time;
+  trials::StudyProgress on_progress;  ///< false interrupts
 };
 
 /// Something that was tried.

@@ -7,6 +7,7 @@
 #include "checker/experiments/fix/fix_report.hpp"
 #include "checker/experiments/statistics/confidence.hpp"
 #include "checker/experiments/trials/tone_of_health.hpp"
+#include "checker/experiments/trials/unasked.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
 #include "checker/presentation/document/unmodelled.hpp"
 #include "checker/presentation/text/command_line.hpp"
@@ -142,8 +143,9 @@ class Builder {
     if (!report_.untried.empty()) {
       std::vector<std::string> names;
       for (const Kind kind : report_.untried) names.emplace_back(name_of(kind));
-      facts.rows.emplace_back("no time for",
-                              fmt::format("{}, at least in part", fmt::join(names, ", ")));
+      trials::Unasked unasked;
+      unasked.left_out.push_back(fmt::format("more changes of {}", fmt::join(names, ", ")));
+      add_unasked(facts, unasked);
     }
     document_.blocks.emplace_back(std::move(facts));
   }

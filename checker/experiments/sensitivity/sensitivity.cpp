@@ -70,35 +70,36 @@ class Study {
     if (report_.finished && pairs_of_ > 1) run_pairs();
     report_.runs = runner_.finished();
     report_.finished = !runner_.stopped();
+    if (cut_ > 0) report_.unasked.cuts.push_back({"runs", cut_, *report_.cut_at});
     return std::move(report_);
   }
 
  private:
-  /// Of the time that is left, what runs are planned for.
-  static constexpr double careful = 0.8;
   /// Fewer pairs say nothing with confidence.
   static constexpr std::size_t least_samples = 6;
 
   /// If there is no time for all: no pairs, then fewer samples, and where the unchanged scenario
   /// does not complete, shorter runs of all.
   void fit_into_time() {
-    if (!options_.seconds_left || !options_.seconds_left()) return;
+    if (!options_.time.is_limited()) return;
+    const trials::Pace pace{options_.time, 0};
     std::atomic<bool> completes = false;
     runner_.each(std::min<std::size_t>(2, samples_), [&](std::size_t k) {
       const auto run = run_one(unchanged_, options_.first_seed + k);
       if (run && run->completed) completes = true;
       return run.has_value();
     });
-    const std::size_t fits = runner_.fitting(careful * options_.seconds_left().value_or(0));
+    const std::size_t fits = pace.fitting(options_.time, runner_.finished());
     std::size_t changes = 1;
     for (const Knob& knob : knobs_) {
       for (const auto& level : knob.levels) changes += level ? 1U : 0U;
     }
     const std::size_t pairs = pairs_of_ < 2 ? 0 : pairs_of_ * (pairs_of_ - 1) / 2;
     if ((changes + pairs) * samples_ <= fits) return;
-    report_.was_fitted = true;
+    if (pairs > 0) report_.unasked.left_out.emplace_back("pairs");
     pairs_of_ = 0;
     samples_ = std::clamp(fits / changes, std::min(least_samples, samples_), samples_);
+    report_.unasked.note("runs of each change", samples_, options_.samples);
     const std::size_t all = changes * samples_;
     if (all <= fits || completes) return;
     const double part = static_cast<double>(fits) / static_cast<double>(all);
@@ -128,6 +129,7 @@ class Study {
     if (report_.cut_at) drawn.time_limit = std::min(drawn.time_limit, *report_.cut_at);
     const auto run = runner_.simulate(drawn);
     if (!run) return std::nullopt;
+    if (report_.cut_at && !run->completed()) ++cut_;
     return Outcome{
         {statistics::completion_ns(run->discovery_time), static_cast<double>(run->counts.total())},
         run->completed()};
@@ -244,6 +246,7 @@ class Study {
   const Level unchanged_{"", scenario_, {}};
   const Options& options_;
   std::size_t samples_, pairs_of_;
+  std::atomic<std::size_t> cut_ = 0;
   trials::Runner runner_;
   const std::vector<Knob> knobs_;
   std::vector<Outcomes> singles_;  // the unchanged scenario, then each level of each knob

@@ -14,7 +14,9 @@
 #include "checker/experiments/sensitivity/levels.hpp"
 #include "checker/experiments/statistics/measure.hpp"
 #include "checker/experiments/statistics/paired.hpp"
+#include "checker/experiments/trials/budget.hpp"
 #include "checker/experiments/trials/runner.hpp"
+#include "checker/experiments/trials/unasked.hpp"
 #include "model/scenario.hpp"
 
 namespace stormproof::sensitivity {
@@ -31,8 +33,7 @@ struct Options {
   Measure by = Measure::completion;  ///< what ranks the knobs
   std::size_t pairs_of = 0;  ///< the interactions of so many of the first knobs are looked at
   std::size_t threads = 0;   ///< 0: one for each core
-  /// By the clock: runs are made to fit, if they can be; nothing: all are made to their end.
-  std::function<std::optional<double>()> seconds_left;
+  trials::Budget time;       ///< runs are made to fit
   trials::Progress on_progress;
 };
 
@@ -89,7 +90,7 @@ struct Report {
   std::vector<PairResult> pairs;     ///< the greatest interaction first
   std::size_t samples = 0;           ///< runs of each change that count
   std::size_t runs = 0;              ///< that finished
-  bool was_fitted = false;  ///< not all that was asked for was run: there was no time for it
+  trials::Unasked unasked;
   /// Simulated time that runs are cut at, where the unchanged scenario is not complete by then
   /// either; absent: none is.
   std::optional<model::Nanoseconds> cut_at;

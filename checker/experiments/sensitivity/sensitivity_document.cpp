@@ -117,19 +117,8 @@ class Builder {
                           options_.first_seed + report_.samples - 1);
     }
     if (!report_.finished) runs += "; interrupted before all were done";
-    if (report_.was_fitted) {
-      runs += fmt::format("; to keep to --time each change had {} runs where {} were asked for",
-                          report_.samples, options_.samples);
-      if (options_.pairs_of > 1) runs += ", and pairs none";
-    }
-    if (report_.cut_at) {
-      runs += fmt::format(
-          "; all were cut at {} of simulated time, so messages are those until then, and what "
-          "takes "
-          "longer counts as not complete",
-          report::duration(*report_.cut_at));
-    }
     facts.rows = {{"unchanged", unchanged}, {"runs", runs}};
+    add_unasked(facts, report_.unasked);
     document_.blocks.emplace_back(std::move(facts));
   }
 

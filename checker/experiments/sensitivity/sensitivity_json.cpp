@@ -143,8 +143,9 @@ void describe(V& v, const DescribedReport& shown) {
   v("sampled", shown.description.is_sampled());
   v("by", options.by);
   v("runs", report.runs);
-  v("fitted_into_time", report.was_fitted);
+  v("fitted_into_time", report.unasked.lacked_time());
   v("cut_at_ns", report.cut_at);
+  v("not_asked", sentences_of(report.unasked));
   v("base", Base{report});
   v.unless_empty("unmodelled", shown.description.dds.unmodelled);
   v("knobs", knobs);

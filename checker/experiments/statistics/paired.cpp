@@ -55,6 +55,12 @@ void PairedDifferences::add(double difference, double least) {
   middle_.push_back(unknown ? 0 : difference);
 }
 
+void PairedDifferences::add_between(double low, double high) {
+  low_.push_back(low);
+  high_.push_back(high);
+  middle_.push_back(std::clamp(0.0, low, high));
+}
+
 bool PairedDifferences::all_zero() const {
   const auto is_zero = [](double value) { return value == 0; };
   return std::ranges::all_of(low_, is_zero) && std::ranges::all_of(high_, is_zero);

@@ -62,6 +62,9 @@ class PairedDifferences {
   /// is at least `least`: it counts as that for the lower end of the interval, as +∞ for the upper
   /// end, and as 0 for the estimate.
   void add(double difference, double least = -std::numeric_limits<double>::infinity());
+  /// It lies between these, either of which may be infinite; the one of them that is nearest to no
+  /// difference stands for it in the estimate, as no more is known.
+  void add_between(double low, double high);
   void add_relative(double before, double after) { add(relative_change(before, after), -1); }
 
   [[nodiscard]] std::size_t size() const { return middle_.size(); }

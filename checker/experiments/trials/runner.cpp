@@ -17,7 +17,6 @@ Runner::Runner(std::size_t threads, Progress on_progress, std::size_t finished)
       all_{finished} {}
 
 bool Runner::each(std::size_t count, const std::function<bool(std::size_t k)>& job) {
-  const auto started = std::chrono::steady_clock::now();
   all_ += count;
   std::atomic<std::size_t> next = 0;
   std::atomic<bool> failed = false;
@@ -36,20 +35,7 @@ bool Runner::each(std::size_t count, const std::function<bool(std::size_t k)>& j
   for (std::size_t k = 1; k < std::min(threads_, count); ++k) others.emplace_back(work);
   work();
   for (std::thread& thread : others) thread.join();
-  worked_ += std::chrono::steady_clock::now() - started;
-  ran_ += std::min(next.load(), count);
   return !failed && !stopped_;
-}
-
-std::size_t Runner::fitting(double seconds) const {
-  const double worked = std::max(std::chrono::duration<double>(worked_).count(), 1e-6);
-  const double fit = seconds / worked * static_cast<double>(std::max<std::size_t>(ran_, 1));
-  return static_cast<std::size_t>(std::clamp(fit, 1.0, 1e9));
-}
-
-void Runner::forget_pace() {
-  ran_ = 0;
-  worked_ = {};
 }
 
 /// Under the lock.

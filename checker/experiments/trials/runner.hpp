@@ -5,7 +5,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <mutex>
@@ -67,10 +66,6 @@ class Runner {
 
   /// Whether progress said no.
   [[nodiscard]] bool stopped() const { return stopped_; }
-  /// How many jobs like those so far fit into `seconds` by the clock; at least one.
-  [[nodiscard]] std::size_t fitting(double seconds) const;
-  /// Those until now say nothing of the next ones.
-  void forget_pace();
   /// Jobs that returned true, by all calls.
   [[nodiscard]] std::size_t finished() const { return finished_; }
 
@@ -83,8 +78,6 @@ class Runner {
   std::atomic<std::size_t> finished_;
   std::size_t all_;
   std::atomic<bool> stopped_ = false;
-  std::size_t ran_ = 0;                           ///< jobs that say how long the next ones take
-  std::chrono::steady_clock::duration worked_{};  ///< on them
 };
 
 /// The results that are there, in their order.

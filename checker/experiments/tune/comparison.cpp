@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/experiments/trials/sample_runs.hpp"
 #include "model/implementations.hpp"
 
 namespace stormproof::tune {
@@ -54,6 +55,7 @@ class RowMaker {
     row.point = point;
     row.changes = changes_of(space_, point);
     row.scenario = space_.apply(subject_.scenario, point);
+    row.plan = space_.plan(point);
     rows_.push_back(std::move(row));
   }
 
@@ -99,6 +101,7 @@ class RowMaker {
                            fmt::to_string(buffer.count()), ""});
     queue = buffer;
     row.scenario = std::move(scenario);
+    row.plan = space_.plan(choice);
     rows_.push_back(std::move(row));
   }
 
@@ -138,6 +141,7 @@ Cost cost_of(const Row& row) {
 
 void describe(Row& row, const std::vector<Outcome>& outcomes) {
   row.summary = summary_of(outcomes);
+  row.outlook = trials::outlook_of(outcomes);
   for (const std::string_view id : broken_in(outcomes)) row.broken.emplace_back(id);
 }
 

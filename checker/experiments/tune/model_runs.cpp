@@ -37,12 +37,13 @@ std::optional<Outcome> run_once(const Scenario& scenario, std::span<const std::s
   Outcome outcome;
   outcome.completion = run.result.discovery_time;
   outcome.counts = run.result.counts;
+  outcome.health = exact::health_of(cut, run.result);
   if (!outcome.completion) outcome.missing = missing_share(scenario, run.result);
   for (const auto& monitor : run.monitors) {
     if (monitor->violation()) outcome.broken.push_back(monitor->property());
   }
-  const bool is_cut = !outcome.completion && limit < scenario.time_limit;
-  if (quiet_too && !is_cut) {
+  if (!outcome.completion && limit < scenario.time_limit) outcome.cut = limit;
+  if (quiet_too && !outcome.cut) {
     const exact::RunPlan long_plan{scenario, scenario, nullptr, 0, goes_on};
     const exact::ObservedRun quiet = exact::run_until_quiet(long_plan);
     if (goes_on && !goes_on()) return std::nullopt;

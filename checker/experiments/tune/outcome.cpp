@@ -39,11 +39,7 @@ std::vector<std::string_view> broken_in(std::span<const Outcome> outcomes) {
 }
 
 Archive::Archive(const Problem& problem, trials::Patience patience, trials::Runner& runner)
-    : problem_{problem},
-      patience_{patience},
-      whole_{patience.limit()},
-      watched_until_{patience.limit()},
-      runner_{runner} {}
+    : problem_{problem}, patience_{patience}, runner_{runner} {}
 
 bool Archive::extend(const std::vector<Point>& points, Seeds seeds) {
   std::vector<const Point*> distinct;
@@ -81,7 +77,8 @@ void Archive::run(std::span<const Job> jobs) {
   });
   for (std::size_t k = 0; k < jobs.size(); ++k) {
     if (!results[k]) continue;
-    results[k]->cut = !results[k]->completion && limit < whole_;
+    results[k]->cut.reset();  // what takes as long as the limit of all is not cut
+    if (!results[k]->completion && limit < patience_.whole()) results[k]->cut = limit;
     if (results[k]->cut) ++cuts_;
     outcomes_[*jobs[k].point].emplace(jobs[k].seed, *std::move(results[k]));
     ++runs_;
@@ -90,7 +87,7 @@ void Archive::run(std::span<const Job> jobs) {
 
 bool Archive::watch(const std::vector<Point>& points, Seeds seeds) {
   if (!problem_.watch) return true;
-  const model::Nanoseconds limit = std::min(patience_.limit(), watched_until_);
+  const model::Nanoseconds limit = patience_.limit();
   struct Watched {
     const Point* point;
     std::uint64_t seed;
@@ -116,6 +113,20 @@ bool Archive::watch(const std::vector<Point>& points, Seeds seeds) {
     jobs[k].outcome->watched = true;
   }
   return !runner_.stopped();
+}
+
+void Archive::begin_anew(trials::Patience patience) {
+  patience_ = patience;
+  outcomes_.clear();
+  runs_ = cuts_ = 0;
+}
+
+bool Archive::lengthen() {
+  if (!patience_.lengthen()) return false;
+  for (auto& [point, runs] : outcomes_) {
+    cuts_ -= std::erase_if(runs, [](const auto& run) { return run.second.cut.has_value(); });
+  }
+  return true;
 }
 
 std::vector<Outcome> Archive::outcomes(const Point& point, Seeds seeds) const {

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/engines/exact/health.hpp"
 #include "checker/experiments/trials/patience.hpp"
 #include "checker/experiments/trials/runner.hpp"
 #include "checker/experiments/tune/pareto.hpp"
@@ -26,9 +27,10 @@ namespace stormproof::tune {
 struct Outcome {
   std::optional<model::Nanoseconds> completion;  ///< absent: not complete within the limit
   double missing = 0;  ///< share of the descriptors that had not arrived then; 0 if complete
-  /// It was not simulated to its end: `missing` and `counts` are those until then.
-  bool cut = false;
+  /// When it was cut, if it was: `missing` and `counts` are those until then, and it takes longer.
+  std::optional<model::Nanoseconds> cut;
   model::Counts counts;
+  exact::RunHealth health{};
   std::vector<std::string_view> broken;  ///< ids of the properties and limits that must hold and
                                          ///< do not, ascending
   bool watched = false;                  ///< `broken` has what `Problem::watch` sees, too
@@ -89,8 +91,11 @@ class Archive {
   [[nodiscard]] model::Nanoseconds limit() const { return patience_.limit(); }
   /// Runs that were cut.
   [[nodiscard]] std::size_t cuts() const { return cuts_; }
-  /// Nothing that is watched from now on is followed for longer.
-  void watch_until(model::Nanoseconds limit) { watched_until_ = limit; }
+  /// From now on it has twice the patience, if nothing completed yet and there can be more; then
+  /// runs that were cut are as if they had not been made.
+  bool lengthen();
+  /// Begins anew, with this patience.
+  void begin_anew(trials::Patience patience);
 
  private:
   struct Job {
@@ -101,8 +106,6 @@ class Archive {
 
   const Problem& problem_;
   trials::Patience patience_;
-  const model::Nanoseconds whole_;  ///< what is not cut is simulated until then
-  model::Nanoseconds watched_until_;
   trials::Runner& runner_;
   std::size_t runs_ = 0, cuts_ = 0;
   std::map<Point, std::map<std::uint64_t, Outcome>> outcomes_;

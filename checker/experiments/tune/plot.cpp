@@ -60,7 +60,7 @@ std::string to_svg(const Report& report, const Context& context) {
 
   plot::Series tried = points("tried (seeds of the search)");
   for (const Cost& cost : report.tried) {
-    if (cost.completion > static_cast<double>(report.search_limit.count())) continue;
+    if (std::isinf(cost.completion)) continue;
     tried.x.push_back(cost.completion / second);
     tried.y.push_back(cost.messages);
   }

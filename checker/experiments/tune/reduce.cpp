@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "checker/experiments/statistics/completion.hpp"
@@ -14,9 +15,30 @@ namespace {
 
 double messages_of(const Outcome& outcome) { return static_cast<double>(outcome.counts.total()); }
 
+/// As far as it is known: what was cut takes longer.
+double completion_of(const Outcome& outcome) {
+  return statistics::completion_ns(outcome.cut ? outcome.cut : outcome.completion);
+}
+
 /// Nothing takes less than 1 ns, or one message. NaN if both are unreached.
 double logarithm_of_ratio(double candidate, double reference) {
   return std::log(std::max(candidate, 1.0) / std::max(reference, 1.0));
+}
+
+/// What one costs beside the other. What was cut costs at least so much.
+void add(statistics::PairedDifferences& pairs, const Outcome& one, double costs,
+         const Outcome& other, double other_costs) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double ratio = logarithm_of_ratio(costs, other_costs);
+  if (one.cut && other.cut) {
+    pairs.add_between(-infinity, infinity);
+  } else if (one.cut) {
+    pairs.add_between(ratio, infinity);
+  } else if (other.cut) {
+    pairs.add_between(-infinity, ratio);
+  } else {
+    pairs.add(ratio);
+  }
 }
 
 /// A changed value moves back by a half of the way, a quarter if that is too far, an eighth, and no
@@ -196,9 +218,10 @@ Difference difference(const std::vector<Outcome>& candidate, const std::vector<O
   statistics::PairedDifferences completion;
   statistics::PairedDifferences messages;
   for (std::size_t k = 0; k < std::min(candidate.size(), reference.size()); ++k) {
-    completion.add(logarithm_of_ratio(statistics::completion_ns(candidate[k].completion),
-                                      statistics::completion_ns(reference[k].completion)));
-    messages.add(logarithm_of_ratio(messages_of(candidate[k]), messages_of(reference[k])));
+    const Outcome& one = candidate[k];
+    const Outcome& other = reference[k];
+    add(completion, one, completion_of(one), other, completion_of(other));
+    add(messages, one, messages_of(one), other, messages_of(other));
   }
   if (candidate.size() == 1) return {completion.fact(), messages.fact()};
   return {completion.shift(confidence), messages.shift(confidence)};

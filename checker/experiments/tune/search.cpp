@@ -234,7 +234,8 @@ class Search {
       const std::vector<Outcome> outcomes = archive_.outcomes(point, basis);
       if (outcomes.size() < basis.count || !broken_in(outcomes).empty()) continue;
       // Of what was cut nothing is known that another could be held against.
-      if (std::ranges::any_of(outcomes, &Outcome::cut) && std::isinf(cost_of(outcomes).completion))
+      if (std::ranges::any_of(outcomes, [](const Outcome& one) { return one.cut.has_value(); }) &&
+          std::isinf(cost_of(outcomes).completion))
         continue;
       kept.push_back(point);
       costs.push_back(archive_.cost(point, basis));

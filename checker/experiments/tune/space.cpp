@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "checker/experiments/trials/usual_hosts.hpp"
 #include "model/config/knobs/other_choices.hpp"
 
 namespace stormproof::tune {
@@ -21,8 +22,10 @@ std::int64_t rounded(double value) {
   return std::llround(std::round(value / unit) * unit);
 }
 
-/// Log scale of a range that may begin at 0: the least step above 0 is 1.
-double lowest(std::int64_t minimum) { return std::max(1.0, static_cast<double>(minimum)); }
+/// Log scale of a range that may begin at 0.
+double lowest(const Dimension& dimension) {
+  return static_cast<double>(std::max(dimension.finest, dimension.minimum));
+}
 
 constexpr std::string_view off = "false";
 constexpr std::string_view on = "true";
@@ -66,7 +69,7 @@ std::optional<Dimension> dimension_of(const std::string& key, const VendorKnob& 
 }  // namespace
 
 bool Dimension::is_logarithmic() const {
-  return static_cast<double>(maximum) >= 100 * lowest(minimum);
+  return static_cast<double>(maximum) >= 100 * lowest(*this);
 }
 
 std::int64_t Dimension::value_at(double position) const {
@@ -74,7 +77,7 @@ std::int64_t Dimension::value_at(double position) const {
   const double to = static_cast<double>(maximum);
   const double where = std::clamp(position, 0.0, 1.0);
   if (where == 0) return minimum;
-  const double value = is_logarithmic() ? lowest(minimum) * std::pow(to / lowest(minimum), where)
+  const double value = is_logarithmic() ? lowest(*this) * std::pow(to / lowest(*this), where)
                                         : from + where * (to - from);
   return std::clamp(rounded(value), minimum, maximum);
 }
@@ -85,13 +88,21 @@ double Dimension::position_of(std::int64_t value) const {
   const double from = static_cast<double>(minimum);
   const double to = static_cast<double>(maximum);
   const double at = static_cast<double>(value);
-  return is_logarithmic() ? std::log(at / lowest(minimum)) / std::log(to / lowest(minimum))
-                          : (at - from) / (to - from);
+  return is_logarithmic()
+             ? std::max(0.0, std::log(at / lowest(*this)) / std::log(to / lowest(*this)))
+             : (at - from) / (to - from);
 }
 
 std::string Dimension::print(std::int64_t value) const {
   if (is_switch) return std::string{value == 0 ? off : on};
+  if (const auto one = plan(value)) return launch::words_of(*one);
   return model::config::print_quantity(unit, value);
+}
+
+std::optional<launch::Plan> Dimension::plan(std::int64_t value) const {
+  if (!order) return std::nullopt;
+  if (value == 0) return launch::Plan{launch::Order::at_once};
+  return launch::Plan{*order, model::Nanoseconds{value}};
 }
 
 Point Space::unchanged() const {
@@ -110,6 +121,7 @@ std::vector<std::size_t> Space::changes(const Point& point) const {
 
 model::Scenario Space::apply(model::Scenario scenario, const Point& point) const {
   for (const std::size_t d : changes(point)) {
+    if (dimensions[d].order) continue;
     if (dimensions[d].is_switch) {
       scenario.dds = turned(scenario.dds, dimensions[d].key);
       continue;
@@ -118,6 +130,13 @@ model::Scenario Space::apply(model::Scenario scenario, const Point& point) const
     static_cast<void>(model::config::set_numeric_knob(scenario, dimensions[d].key, point[d]));
   }
   return scenario;
+}
+
+std::optional<launch::Plan> Space::plan(const Point& point) const {
+  for (const std::size_t d : changes(point)) {
+    if (dimensions[d].order) return dimensions[d].plan(point[d]);
+  }
+  return std::nullopt;
 }
 
 std::optional<std::size_t> Space::find(std::string_view key) const {
@@ -146,6 +165,39 @@ Space space_of(const model::Scenario& scenario, std::span<const VendorKnob> knob
     }
   }
   return space;
+}
+
+void add_launch_plan(const model::Scenario& scenario, Space& space) {
+  constexpr std::int64_t finest = 1'000'000;
+  constexpr std::int64_t longest = 2'000'000'000;
+  const std::string key{launch::plan_key};
+  const model::Deployment& deployment = scenario.deployment;
+  if (!launch::can_vary(deployment)) {
+    space.fixed.push_back({key, "a plan is about first starts, of several"});
+    return;
+  }
+  if (trials::lacks_hosts(scenario)) {
+    space.fixed.push_back(
+        {key, "what spread starts cost depends on processors; say hosts, such as " +
+                  std::string{trials::usual_hosts}});
+    return;
+  }
+  const launch::Plan plan = launch::plan_of(deployment);
+  if (plan.order == launch::Order::deployed) {
+    space.fixed.push_back({key, "the starts of the scenario follow no plan"});
+    return;
+  }
+  Dimension dimension;
+  dimension.key = key;
+  dimension.setting = "launch plan";
+  dimension.unit = NumericKnob::Unit::nanoseconds;
+  dimension.order = plan.order == launch::Order::at_once ? launch::Order::by_process : plan.order;
+  dimension.finest = finest;
+  dimension.unchanged = plan.step.count();
+  const auto last =
+      std::max<std::int64_t>(1, launch::starts_of(deployment, *dimension.order).back());
+  dimension.maximum = std::min(longest, scenario.time_limit.count() / (2 * last));
+  space.dimensions.push_back(std::move(dimension));
 }
 
 }  // namespace stormproof::tune

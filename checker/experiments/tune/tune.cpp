@@ -33,18 +33,20 @@ constexpr std::size_t search_samples = 12;
 constexpr std::size_t most_shown = 8;
 /// Fewer runs of a setting say nothing.
 constexpr std::size_t least_samples = 6;
-/// Of the time that is left, what runs are planned for: some take longer than those before.
-constexpr double careful = 0.7;
 /// Distance between the sets of seeds.
 constexpr std::uint64_t next_seeds = 1'000'000;
-/// Of the time that is left, what the search may take where the unchanged setting is not complete.
-constexpr double search_part = 0.35;
-/// What follows takes so many times as long for each run: it is watched.
-constexpr std::size_t watched_factor = 4;
-/// A run that is cut takes no less than such a part of the others.
-constexpr std::size_t most_gained = 4;
-/// Where there is little time, the unchanged setting is watched for so many times what is late.
-constexpr std::int64_t watched_late = 10;
+/// Of the time: what the first runs may take until something completes, and of what is left then
+/// what the search may.
+constexpr double first_part = 0.2;
+constexpr double search_part = 0.4;
+/// With little time a search has at least so many settings for each of its seeds, of which there
+/// are no fewer.
+constexpr std::size_t settings_each = 30;
+constexpr std::size_t least_search_samples = 3;
+/// A run that is watched takes so many times as long as one that is not.
+constexpr std::size_t watched_factor = 8;
+/// Steps of the reduction of a setting, about.
+constexpr std::size_t reduction_steps = 10;
 
 std::vector<std::string_view> known_ids(const Scenario& scenario) {
   std::vector<std::string_view> ids = props::monitored_properties(scenario);
@@ -57,10 +59,15 @@ class Study {
   Study(const Subject& subject, const Options& options)
       : subject_{subject},
         options_{options},
-        runner_{options.threads, [this](std::size_t runs, std::size_t) {
+        runner_{options.threads,
+                [this](std::size_t runs, std::size_t) {
                   return !options_.on_progress ||
                          options_.on_progress(doing_, runs, std::max(runs, about_));
-                }} {
+                }},
+        archive_{problem_,
+                 trials::Patience::from_least(subject.scenario.time_limit,
+                                              exact::late_limit(subject.scenario.limits)),
+                 runner_} {
     const bool sampled = model::is_drawn(scenario()) || options.start_jitter.count() > 0;
     const std::size_t samples = sampled ? options.samples : 1;
     report_.is_sampled = sampled;
@@ -69,6 +76,7 @@ class Study {
     report_.compared = {options.seed + (sampled ? 2 * next_seeds : 0), samples};
     report_.basis = report_.searched;
     report_.space = space_of(scenario(), model::config::vendor::vendor_knobs(subject.vendor));
+    if (options.plans) add_launch_plan(scenario(), report_.space);
   }
 
   Result<Report> run() {
@@ -79,11 +87,13 @@ class Study {
       return model::config::is_valid(report_.space.apply(scenario(), point));
     };
     problem_.run = [this](const Point& point, std::uint64_t seed, Nanoseconds limit) {
-      return run_under(report_.space.apply(scenario(), point), seed, limit, limits_);
+      return run_under(report_.space.apply(scenario(), point), report_.space.plan(point), seed,
+                       limit, limits_);
     };
     problem_.watch = [this](const Point& point, std::uint64_t seed,
                             Nanoseconds limit) -> std::optional<std::vector<std::string_view>> {
-      auto outcome = run_under(report_.space.apply(scenario(), point), seed, limit, properties_);
+      auto outcome = run_under(report_.space.apply(scenario(), point), report_.space.plan(point),
+                               seed, limit, properties_);
       if (!outcome) return std::nullopt;
       return std::move(outcome->broken);
     };
@@ -111,9 +121,11 @@ class Study {
     return std::nullopt;
   }
 
-  std::optional<Outcome> run_under(const Scenario& changed, std::uint64_t seed, Nanoseconds limit,
+  std::optional<Outcome> run_under(const Scenario& changed, const std::optional<launch::Plan>& plan,
+                                   std::uint64_t seed, Nanoseconds limit,
                                    const std::vector<std::string_view>& ids) {
-    const Scenario drawn = trials::under_seed(changed, seed, options_.start_jitter);
+    Scenario drawn = trials::under_seed(changed, seed, options_.start_jitter);
+    if (plan) launch::follow(*plan, changed.deployment, drawn);
     return run_once(drawn, ids, limit, [this] { return runner_.goes_on(); });
   }
 
@@ -126,7 +138,8 @@ class Study {
     }
   }
 
-  /// What holds without a change, and how long it takes.
+  /// What holds without a change, and how long it takes. With little time properties are watched in
+  /// the comparison alone.
   bool look_at_unchanged() {
     if (options_.keep.empty()) {
       watched_ = watchable(scenario());
@@ -136,120 +149,154 @@ class Study {
       }
     }
     share_out();
-    report_.budget = options_.budget;
+    budget_ = options_.budget;
     report_.compared_until = scenario().time_limit;
     about_ = all_runs();
-    Archive archive{problem_, scenario().time_limit, runner_};
-    const std::vector<Point> unchanged{report_.space.unchanged()};
-    if (!archive.extend(unchanged, report_.searched)) return false;
-    const Cost cost = archive.cost(report_.space.unchanged(), report_.searched);
-    if (seconds_left() && std::isinf(cost.completion)) archive.watch_until(late() * watched_late);
-    if (!archive.watch(unchanged, report_.searched)) return false;
-    const auto outcomes = archive.outcomes(report_.space.unchanged(), report_.searched);
+    if (options_.time.is_limited()) {
+      if (!find_patience()) return false;
+      if (hurries_) {
+        problem_.watch = {};
+        forgive({});
+        return true;
+      }
+    }
+    const Point unchanged = report_.space.unchanged();
+    Archive whole{problem_, scenario().time_limit, runner_};
+    if (!whole.extend({unchanged}, report_.searched)) return false;
+    if (!whole.watch({unchanged}, report_.searched)) return false;
+    const auto outcomes = whole.outcomes(unchanged, report_.searched);
+    forgive(broken_in(outcomes));
+    trials::Patience patience{scenario().time_limit, Nanoseconds{1}};
+    patience.see(cost_of(outcomes).completion, trials::beside_unchanged);
+    archive_.begin_anew(trials::Patience{patience.limit(), exact::late_limit(scenario().limits)});
+    return true;
+  }
+
+  /// What breaks unchanged is not asked of others, unless the user does.
+  void forgive(const std::vector<std::string_view>& broken) {
     if (options_.keep.empty()) {
-      for (const std::string_view id : broken_in(outcomes)) {
+      for (const std::string_view id : broken) {
         report_.not_required.emplace_back(id);
         std::erase(watched_, id);
       }
       share_out();
     }
     for (const std::string_view id : watched_) report_.kept.emplace_back(id);
-    trials::Patience patience{scenario().time_limit, Nanoseconds{1}};
-    patience.see(cost_of(outcomes).completion, trials::beside_unchanged);
-    report_.search_limit = patience.limit();
-    // Where the unchanged setting does not complete, its runs say little of those of the search,
-    // which are cut: its time ends it.
-    if (is_open()) {
-      if (const auto left = seconds_left()) {
-        report_.budget = std::min(report_.budget, most_gained * runner_.fitting(careful * *left));
-        report_.was_fitted = report_.budget < options_.budget;
+  }
+
+  /// With little time nobody waits for the end of a storm: the unchanged setting and the ends of
+  /// each knob run under one seed, for longer and longer, until one of them completes. What these
+  /// runs took says how many settings the search has time for.
+  bool find_patience() {
+    std::vector<Point> points{report_.space.unchanged()};
+    for (std::size_t d = 0; d < report_.space.dimensions.size(); ++d) {
+      const Dimension& dimension = report_.space.dimensions[d];
+      for (const std::int64_t end : {dimension.minimum, dimension.maximum}) {
+        points.push_back(report_.space.unchanged());
+        points.back()[d] = end;
+        if (!problem_.is_valid(points.back())) points.pop_back();
       }
-      runner_.forget_pace();
-    } else {
-      fit_into_time();
     }
+    const trials::Budget first = options_.time.part(first_part);
+    do {
+      pace_ = trials::Pace{options_.time, runner_.finished()};
+      first_limit_ = archive_.limit();
+      if (!archive_.extend(points, {report_.searched.first, 1})) return false;
+    } while (!first.is_over() && archive_.lengthen());
+    const std::size_t fits = fitting(options_.time.part(search_part));
+    hurries_ = fits < budget_;
+    if (!hurries_) return true;
+    budget_ = fits;
+    report_.searched.count =
+        std::clamp(fits / settings_each, std::min(least_search_samples, report_.searched.count),
+                   report_.searched.count);
+    report_.basis = report_.searched;
+    about_ = runner_.finished() + all_runs();
     return true;
   }
 
-  [[nodiscard]] std::optional<double> seconds_left() const {
-    return options_.seconds_left ? options_.seconds_left() : std::nullopt;
-  }
-  [[nodiscard]] Nanoseconds late() const { return exact::late_limit(scenario().limits); }
-  /// Whether the unchanged setting is no measure of how long a run of the search takes.
-  [[nodiscard]] bool is_open() const {
-    return report_.search_limit == scenario().time_limit && report_.search_limit > late();
+  [[nodiscard]] std::size_t fitting(const trials::Budget& rest) const {
+    return pace_.fitting(rest, runner_.finished());
   }
 
   /// About how many runs there will be.
   [[nodiscard]] std::size_t all_runs() const {
-    return (is_searched_ ? 0 : report_.budget) + 10 * shown_ * report_.chosen.count +
+    return budget_ + reduction_steps * shown_ * report_.chosen.count +
            (shown_ + 3) * report_.compared.count;
   }
 
-  /// Fewer runs if there is no time for all: first of each setting, then of the search, then
-  /// settings of the front.
-  void fit_into_time() {
-    const auto left = seconds_left();
-    if (!left) return;
-    const std::size_t unwatched = runner_.fitting(careful * *left);
-    const std::size_t fits = is_searched_ ? unwatched / watched_factor : unwatched;
-    const auto lower = [&](std::size_t& number, std::size_t least) {
-      while (all_runs() > fits && number > least) number = std::max(least, number * 3 / 4);
+  /// Fewer runs if there is no time for all that comes after the search: first of each setting,
+  /// then settings of the front. Returns whether there is time to set anything back.
+  bool fit_into_time() {
+    if (!options_.time.is_limited()) return true;
+    const std::size_t fits = fitting(options_.time);
+    const auto costs = [&] {
+      const std::size_t watched_runs =
+          hurries_ ? shown_ + 1 : shown_ * (report_.chosen.count + report_.compared.count);
+      return reduction_steps * shown_ * report_.chosen.count +
+             (shown_ + 4) * report_.compared.count + watched_factor * watched_runs;
     };
-    report_.was_fitted = report_.was_fitted || all_runs() > fits;
-    lower(report_.chosen.count, std::min<std::size_t>(search_samples, report_.chosen.count));
-    report_.compared.count = std::min(report_.compared.count, report_.chosen.count);
-    if (!is_searched_) lower(report_.budget, std::min<std::size_t>(200, options_.budget));
+    const auto lower = [&](std::size_t& number, std::size_t least) {
+      while (costs() > fits && number > least) {
+        number = std::max(least, number * 3 / 4);
+        report_.compared.count = report_.chosen.count;
+      }
+    };
+    lower(report_.chosen.count, std::min(search_samples, report_.chosen.count));
+    lower(shown_, 2);
     lower(report_.chosen.count, std::min(least_samples, report_.chosen.count));
-    report_.compared.count = report_.chosen.count;
     lower(shown_, 1);
-    if (!is_searched_) lower(report_.budget, std::min<std::size_t>(25, options_.budget));
-    about_ = all_runs();
+    about_ = runner_.finished() + costs();
+    return costs() <= 2 * fits;  // some steps are fewer
   }
 
   bool search_and_choose() {
     doing_ = "search";
-    Archive archive{problem_, {report_.search_limit, late()}, runner_};
-    SearchOptions options{report_.budget, report_.searched, options_.seed};
-    if (const auto left = seconds_left(); left && is_open()) {
-      options.time_used = [this, left] {
-        return (*left - seconds_left().value_or(0)) / (search_part * *left);
-      };
-    }
-    report_.found = search(problem_, archive, options);
-    report_.cuts = archive.cuts();
-    report_.cut_at = archive.limit();
+    SearchOptions options{budget_, report_.searched, options_.seed};
+    const trials::Budget search_time = options_.time.part(search_part);
+    if (search_time.is_limited()) options.time_used = [&] { return search_time.used(); };
+    pace_ = trials::Pace{options_.time, runner_.finished()};
+    report_.found = search(problem_, archive_, options);
     const auto keep_what_is_known = [&](const std::vector<Point>& front, Seeds basis) {
-      report_.settings = archive.settings();
+      report_.settings = archive_.settings();
       report_.basis = basis;
       front_ = front;
       for (const Point& point : with_unchanged(front)) {
-        known_[point] = archive.outcomes(point, basis);
+        known_[point] = archive_.outcomes(point, basis);
       }
     };
     report_.tried = report_.found.finalists;
     keep_what_is_known(report_.found.front, report_.found.basis);
     choice_ = front_.empty() ? problem_.space.unchanged() : front_.front();
+    note_search();
     if (!report_.found.finished) return false;
 
-    if (is_open()) {
-      is_searched_ = true;
-      if (archive.runs() < report_.budget) {
-        report_.was_fitted = true;
-        report_.budget = archive.runs();
-      }
-      fit_into_time();
+    if (!fit_into_time()) {
+      report_.unasked.left_out.emplace_back("changes set back that do not matter");
+      front_.resize(std::min<std::size_t>(front_.size(), 1));
+      return true;
     }
     doing_ = "reduction";
-    const std::vector<Point> spread = spread_front(archive, report_.found.front, report_.searched);
+    const std::vector<Point> spread = spread_front(archive_, report_.found.front, report_.searched);
     const auto reduced =
-        tune::reduced(with_unchanged(spread), problem_, archive, report_.chosen, options_.least);
+        tune::reduced(with_unchanged(spread), problem_, archive_, report_.chosen, options_.least);
     if (!reduced) return false;
     count_undone(spread, *reduced);
-    const std::vector<Point> front = kept_front(archive, *reduced, report_.chosen);
+    const std::vector<Point> front = kept_front(archive_, *reduced, report_.chosen);
     keep_what_is_known(front, report_.chosen);
-    choice_ = chosen_of(archive, front);
+    choice_ = chosen_of(archive_, front);
     return true;
+  }
+
+  /// What the search did not ask.
+  void note_search() {
+    if (hurries_) report_.unasked.note("runs of the search", archive_.runs(), options_.budget);
+    if (archive_.cuts() > 0) {
+      // Where none may be cut any more, those were that waited for the first to complete.
+      const bool any_more = archive_.limit() < scenario().time_limit;
+      report_.unasked.cuts.push_back(
+          {"runs of the search", archive_.cuts(), any_more ? archive_.limit() : first_limit_});
+    }
   }
 
   [[nodiscard]] std::vector<Point> with_unchanged(std::vector<Point> points) const {
@@ -318,13 +365,20 @@ class Study {
     doing_ = "comparison";
     std::vector<Row> rows = rows_of(subject_, report_.space, front_, choice_);
     about_ = runner_.finished() + rows.size() * report_.compared.count;
-    if (report_.was_fitted && report_.cuts > 0) report_.compared_until = report_.cut_at;
+    if (hurries_) report_.compared_until = archive_.limit();
     const std::size_t samples = report_.compared.count;
+    const auto watched = [&](const Row& row,
+                             std::size_t run) -> const std::vector<std::string_view>& {
+      const bool is_watched = run == 0 && row.kind != Row::Kind::comparison;
+      return hurries_ && !is_watched ? limits_ : watched_;
+    };
     auto outcomes = runner_.run(rows.size() * samples, [&](std::size_t k) {
-      return run_under(rows[k / samples].scenario, report_.compared.first + k % samples,
-                       report_.compared_until, watched_);
+      const Row& row = rows[k / samples];
+      return run_under(row.scenario, row.plan, report_.compared.first + k % samples,
+                       report_.compared_until, watched(row, k % samples));
     });
     if (runner_.stopped()) return;
+    note_comparison(outcomes);
     std::vector<std::vector<Outcome>> by_row(rows.size());
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
       by_row[k / samples].push_back(*std::move(outcomes[k]));
@@ -332,6 +386,16 @@ class Study {
     report_.basis = report_.compared;
     judge_rows(std::move(rows), by_row, options_, report_);
     finished_ = true;
+  }
+
+  void note_comparison(const std::vector<std::optional<Outcome>>& outcomes) {
+    trials::Unasked& unasked = report_.unasked;
+    unasked.note("runs of each setting", report_.compared.count,
+                 report_.is_sampled ? options_.samples : 1);
+    if (hurries_) unasked.left_out.emplace_back("properties beyond one run of a setting");
+    const auto cut = static_cast<std::size_t>(std::ranges::count_if(
+        outcomes, [](const auto& outcome) { return outcome->cut.has_value(); }));
+    if (cut > 0) unasked.cuts.push_back({"runs of the table", cut, report_.compared_until});
   }
 
   void conclude() {
@@ -353,8 +417,12 @@ class Study {
   const char* doing_ = "unchanged";
   std::size_t about_ = 0;
   std::size_t shown_ = most_shown;
+  std::size_t budget_ = 0;   ///< runs of the search
+  Nanoseconds first_limit_;  ///< of the last of the first runs
   trials::Runner runner_;
-  bool is_searched_ = false;
+  trials::Pace pace_{options_.time, 0};
+  Archive archive_;
+  bool hurries_ = false;  ///< there is no time for the whole search
   bool finished_ = false;
   Report report_;
 };

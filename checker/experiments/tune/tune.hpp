@@ -11,7 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "checker/engines/exact/health.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
+#include "checker/experiments/trials/budget.hpp"
+#include "checker/experiments/trials/unasked.hpp"
 #include "checker/experiments/tune/reduce.hpp"
 #include "checker/experiments/tune/search.hpp"
 #include "checker/experiments/tune/subject.hpp"
@@ -24,11 +27,11 @@ struct Options {
                                ///< if all runs of the scenario are the same
   std::uint64_t seed = 0;
   double least = 0.02;  ///< what is worth a line of XML: this part of completion, or of messages
-  std::vector<std::string> keep;    ///< what every run must keep; empty: all that holds unchanged
-  model::Nanoseconds start_jitter;  ///< each participant starts up to this much later
-  std::size_t threads = 0;          ///< 0: one for each core
-  /// By the clock: search and comparison are made to fit, if they can be; nothing: all is run.
-  std::function<std::optional<double>()> seconds_left;
+  bool plans = false;   ///< launch plans vary, too
+  std::vector<std::string> keep;      ///< what every run must keep; empty: all that holds unchanged
+  model::Nanoseconds start_jitter;    ///< each participant starts up to this much later
+  std::size_t threads = 0;            ///< 0: one for each core
+  trials::Budget time;                ///< search and comparison are made to fit
   trials::StudyProgress on_progress;  ///< false interrupts
 };
 
@@ -59,7 +62,9 @@ struct Row {
   bool is_choice = false;      ///< chosen before the comparison
   std::vector<Change> changes;
   model::Scenario scenario;
+  std::optional<launch::Plan> plan;  ///< absent: as the scenario says
   Summary summary;
+  std::optional<exact::Outlook> outlook;          ///< of its runs; absent: none
   std::optional<Difference> against_unchanged;    ///< absent: it is the unchanged one, or
                                                   ///< interrupted
   std::optional<Difference> recommended_against;  ///< the recommended setting compared with it
@@ -81,16 +86,11 @@ struct Report {
   bool is_sampled = false;                ///< runs of one setting differ
   Seeds searched, chosen, compared;       ///< seeds
   std::size_t runs = 0, settings = 0;
-  std::size_t budget = 0;   ///< runs of the search: those asked for, or what there was time for
-  bool was_fitted = false;  ///< not all that was asked for was run: there was no time for it
+  trials::Unasked unasked;  ///< what there was no time for, and which runs of the search were cut
   SearchResult found;
   std::size_t undone = 0;   ///< changes that were set back because they do not matter
   std::size_t dropped = 0;  ///< settings of the front that others dominate under new seeds, or
                             ///< that break something there
-  model::Nanoseconds search_limit;  ///< simulated time that a run of the search may take
-  /// Runs of the search that were cut before that, and when the last of them were.
-  std::size_t cuts = 0;
-  model::Nanoseconds cut_at;
   model::Nanoseconds compared_until;  ///< simulated time of a run of the rows
   std::vector<Cost> tried;            ///< of all settings that the search ran under all its seeds
   std::vector<Row> rows;              ///< unchanged, the front by completion, comparisons

@@ -26,8 +26,6 @@ using report::Table;
 using report::Text;
 using report::Tone;
 
-std::string time(const std::optional<double>& value) { return report::time_figure(value, "never"); }
-
 std::string count(const std::optional<double>& value) { return report::count_figure(value); }
 
 /// The last element of a path of elements, with its parent; the name of a property.
@@ -92,8 +90,21 @@ class Builder {
     return report_.recommended ? &report_.rows[*report_.recommended] : nullptr;
   }
 
+  /// Of a completion.
+  [[nodiscard]] std::string time(const std::optional<double>& value) const {
+    const bool is_cut = report_.compared_until < context_.subject.scenario.time_limit;
+    return report::time_figure(value, is_cut ? longer_.c_str() : "never");
+  }
+
   [[nodiscard]] bool is_recommended(const Row& row) const {
     return &row == recommended() && row.kind == Row::Kind::front;
+  }
+
+  /// Whether nobody has to wait with the recommended setting.
+  [[nodiscard]] bool is_cured() const {
+    const Row* best = recommended();
+    return report_.answer != Answer::better || !best->outlook ||
+           best->outlook->health() == exact::Health::fine;
   }
 
   [[nodiscard]] bool has_front() const {
@@ -106,11 +117,10 @@ class Builder {
     document_.title = "stormproof tune " + context_.scenario;
     document_.complete = !interrupted;
     document_.exit_code = interrupted ? 3 : context_.newly_violated ? 1 : 0;
-    document_.tone = interrupted               ? Tone::warn
-                     : context_.newly_violated ? Tone::bad
-                     : report_.answer == Answer::better
-                         ? (context_.is_cured ? Tone::good : Tone::warn)
-                         : Tone::info;
+    document_.tone = interrupted                        ? Tone::warn
+                     : context_.newly_violated          ? Tone::bad
+                     : report_.answer == Answer::better ? (is_cured() ? Tone::good : Tone::warn)
+                                                        : Tone::info;
     document_.subject = fmt::format(
         "{}: settings of {} ({}) that a user can change", context_.scenario,
         model::config::vendor::name_of(context_.subject.vendor), context_.subject.preset);
@@ -142,9 +152,11 @@ class Builder {
 
   /// Whether it works with the recommended setting.
   [[nodiscard]] std::string afterwards() const {
-    if (context_.after.empty()) return {};
-    if (context_.is_cured) return "With it: " + context_.after + ".";
-    return fmt::format("With it, still: {}. Settings alone do not cure it.", context_.after);
+    const Row* best = recommended();
+    if (!best->outlook) return {};
+    const std::string after = best->outlook->headline() + ": " + best->outlook->sentence();
+    if (is_cured()) return "With it: " + after + ".";
+    return fmt::format("With it, still: {}. Settings alone do not cure it.", after);
   }
 
   /// What comes after: the file, and other ways to discover if settings do not do.
@@ -155,7 +167,7 @@ class Builder {
       document_.next.push_back({report::program() + " tune " + words + " -o tuned",
                                 "the same, and the files to deploy"});
     }
-    if (!context_.is_cured || report_.answer == Answer::nothing_better) {
+    if (!is_cured() || report_.answer == Answer::nothing_better) {
       document_.next.push_back({report::program() + " compare-discovery " + words,
                                 "other ways to discover, which may do what settings do not"});
     }
@@ -179,11 +191,11 @@ class Builder {
     for (const Row& row : report_.rows) {
       const Summary& s = row.summary;
       const bool marked = is_recommended(row);
-      table.rows.push_back(
-          {{(marked ? "→ " : "") + row.name, time(s.completion_ns.median),
-            range_text(s.completion_ns, time), count(s.messages.median), count(s.heartbeat.median),
-            range_text(s.heartbeat, count), remark(row)},
-           marked});
+      const auto range = range_text(s.completion_ns, [this](const auto& ns) { return time(ns); });
+      table.rows.push_back({{(marked ? "→ " : "") + row.name, time(s.completion_ns.median), range,
+                             count(s.messages.median), count(s.heartbeat.median),
+                             range_text(s.heartbeat, count), remark(row)},
+                            marked});
     }
     document_.blocks.emplace_back(std::move(table));
     document_.blocks.emplace_back(
@@ -261,6 +273,7 @@ class Builder {
   void notes() {
     Facts facts;
     facts.rows.emplace_back("search", effort());
+    add_unasked(facts, report_.unasked);
     facts.rows.emplace_back("kept", kept());
     if (report_.is_sampled && report_.answer != Answer::interrupted) {
       facts.rows.emplace_back(
@@ -301,23 +314,6 @@ class Builder {
         by.push_back(fmt::format("{} {}", id, times));
       text += fmt::format("; {} settings were refused ({})", found.rejected, fmt::join(by, ", "));
     }
-    if (report_.was_fitted) {
-      text += fmt::format(
-          "; to keep to --time the search had {} runs and each setting {}, where {} and {} were "
-          "asked for",
-          report::grouped(report_.budget), report_.chosen.count,
-          report::grouped(context_.options.budget), context_.options.samples);
-    }
-    if (report_.cuts > 0) {
-      text += fmt::format(
-          "; {} runs of the search were cut, the last ones at {}, {:g} times what the best setting "
-          "until then took: they take at least that long, and count as not complete",
-          report::grouped(report_.cuts), report::duration(report_.cut_at), trials::beside_best);
-    }
-    if (report_.compared_until < context_.subject.scenario.time_limit) {
-      text += fmt::format("; runs of the table are cut at {}, too",
-                          report::duration(report_.compared_until));
-    }
     if (report_.chosen.count > statistics::fewest_pairs(early_confidence)) {
       text += "; what was clearly worse after a part of its runs was not set back, and had no more";
     }
@@ -338,6 +334,7 @@ class Builder {
 
   const Report& report_;
   const Context& context_;
+  const std::string longer_ = "> " + report::duration(report_.compared_until);
   Document document_;
 };
 

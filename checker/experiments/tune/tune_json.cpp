@@ -133,6 +133,8 @@ void describe(V& v, const ReportInContext& shown) {
   const Context& context = shown.context;
   std::vector<RowInContext> rows;
   for (const Row& row : report.rows) rows.push_back({row, context});
+  const trials::Unasked::Cut* const cut =
+      report.unasked.cuts.empty() ? nullptr : &report.unasked.cuts.front();
   v("scenario", context.scenario);
   v("preset", context.subject.preset);
   v("vendor", context.subject.vendor);
@@ -143,9 +145,10 @@ void describe(V& v, const ReportInContext& shown) {
   v("seed", report.basis.first);
   v("wanted", report.basis.count);
   v("runs", report.runs);
-  v("fitted_into_time", report.was_fitted);
-  v("cut_runs", report.cuts);
-  v("cut_at_ns", report.cut_at);
+  v("fitted_into_time", report.unasked.lacked_time());
+  v("cut_runs", cut ? cut->runs : 0);
+  v("cut_at_ns", cut ? cut->at : model::Nanoseconds{});
+  v("not_asked", sentences_of(report.unasked));
   v("compared_until_ns", report.compared_until);
   v("tried", report.settings);
   v("rejected", report.found.rejected);

@@ -21,14 +21,11 @@ struct Context {
   std::map<std::string, std::string, std::less<>> files{};  ///< name of a row → its written XML
   std::vector<std::string> prerequisites{};                 ///< of the recommended setting
   std::vector<std::string> loading{};                       ///< lines of a shell that load its file
-  std::string
-      after{};  ///< what some of its runs were like: "STORM in 4 of 12 runs: …"; may be empty
   std::string repeat{};  ///< command that measures the recommended file again; empty: none
   std::vector<std::string>
       check{};                  ///< lines of the check of the recommended setting; may be empty
   bool files_wanted = false;    ///< if there are none, the report says so
   bool newly_violated = false;  ///< by that check
-  bool is_cured = true;         ///< those runs are fine
 };
 
 [[nodiscard]] report::Document document_of(const Report& report, const Context& context);

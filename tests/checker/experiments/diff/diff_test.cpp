@@ -174,7 +174,7 @@ TEST(Diff, RunsThatAreTheSameAreSaidToBe) {
 
 TEST(Diff, InterruptedIsInconclusive) {
   DiffRequest asked = request(profile("fastdds-2.6.11"), profile("fastdds-2.14.5"));
-  asked.on_progress = [](std::string_view) { return false; };
+  asked.on_progress = [](std::string_view, std::size_t, std::size_t) { return false; };
   const DiffReport report = compared(asked);
   EXPECT_TRUE(report.interrupted);
   EXPECT_EQ(report.judgment, Judgment::unclear);

@@ -70,6 +70,35 @@ TEST(CostJudge, ClearCases) {
   EXPECT_EQ(completion(runs(12, 1e9, 1.25e9)), Judgment::unclear);
 }
 
+/// Of runs that were cut only the least is known, in every measure.
+TEST(CostJudge, WhatWasCutIsNoMeasurement) {
+  const auto cut = [](double before, double after) {
+    PairedRuns pairs = runs(12, before, after);
+    pairs.cut_at = model::Nanoseconds{4'000'000'000};
+    return pairs;
+  };
+  EXPECT_EQ(completion(cut(never, 1e9)), Judgment::better);
+  EXPECT_EQ(completion(cut(1e9, never)), Judgment::regression);
+  EXPECT_EQ(completion(cut(never, never)), Judgment::unclear) << "nobody knows which is longer";
+  EXPECT_EQ(completion(runs(12, never, never)), Judgment::same) << "neither ever completes";
+  EXPECT_EQ(completion(cut(3.9e9, never)), Judgment::unclear) << "at least by 3 %";
+  // Base and candidate send 100 each; if one was cut, it sends more.
+  EXPECT_EQ(judged(cut(1e9, never))[Measure::messages].judgment, Judgment::unclear);
+  // Nor are many of them together.
+  const PairedRuns both = cut(never, never);
+  CostJudge judge{policy(), {point(true)}, 1};
+  std::vector<Configuration> one{judge.judge(point(true), both)};
+  for (const PooledChange& pooled : judge.settle(one, {&both})) {
+    EXPECT_EQ(pooled.judgment, Judgment::unclear) << name_of(pooled.measure);
+  }
+  PairedRuns chatty = cut(1e9, never);
+  for (RunValues& run : chatty.after) run[index_of(Measure::messages)] = 150;
+  EXPECT_EQ(judged(chatty)[Measure::messages].judgment, Judgment::regression);
+  PairedRuns quiet = cut(never, 1e9);
+  for (RunValues& run : quiet.after) run[index_of(Measure::messages)] = 150;
+  EXPECT_EQ(judged(quiet)[Measure::messages].judgment, Judgment::unclear);
+}
+
 /// Eight times as long, and nobody waits longer.
 TEST(CostJudge, AMomentIsNoRegression) {
   Policy patient = policy();

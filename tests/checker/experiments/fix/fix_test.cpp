@@ -147,7 +147,7 @@ TEST(Fix, WhatThereIsNoTimeForIsSaid) {
   Request request = storming();
   request.keep = {Kind::settings};
   double left = 100;
-  request.seconds_left = [&left] { return std::optional{left}; };
+  request.time = trials::Budget{[&left] { return std::optional{left}; }};
   request.on_progress = [&left](std::string_view doing, std::size_t, std::size_t) {
     if (doing == "as it is") left = 20;
     return true;
@@ -159,7 +159,8 @@ TEST(Fix, WhatThereIsNoTimeForIsSaid) {
   EXPECT_EQ(report.before.runs.size(), 3U);
   const std::string text = text_of(report, request);
   EXPECT_TRUE(says(text, "NO TIME LEFT after 0 attempts: STORM before")) << text;
-  EXPECT_TRUE(says(text, "discovery, launch, vendor")) << text;
+  EXPECT_TRUE(says(text, "to keep to --time: no more changes of discovery, launch, vendor"))
+      << text;
 }
 
 TEST(Fix, AProfileThatIsNoProductIsRefused) {

@@ -210,9 +210,9 @@ TEST(SensitivityStudy, StoppedSamplesAreFewerSamples) {
 TEST(SensitivityStudy, WhatThereIsNoTimeForIsCutAndSaid) {
   Options options = jittered();
   options.samples = 40;
-  options.seconds_left = [] { return std::optional{0.0}; };
+  options.time = trials::Budget{[] { return std::optional{0.0}; }};
   const Report whole = analyse(wired(), options);
-  EXPECT_TRUE(whole.was_fitted);
+  EXPECT_TRUE(whole.unasked.lacked_time());
   EXPECT_EQ(whole.samples, 6U);
   EXPECT_TRUE(whole.pairs.empty());
   EXPECT_FALSE(whole.cut_at);
@@ -227,10 +227,13 @@ TEST(SensitivityStudy, WhatThereIsNoTimeForIsCutAndSaid) {
   EXPECT_EQ(json["cut_at_ns"], cut.cut_at->count());
   const std::string text = report::to_text(document_of(cut, description_of(options)));
   EXPECT_NE(text.find("to keep to --time"), std::string::npos) << text;
-  EXPECT_NE(text.find("were cut at"), std::string::npos) << text;
-  options.seconds_left = [] { return std::optional{1e9}; };
+  EXPECT_NE(text.find("6 of 40 runs of each change"), std::string::npos) << text;
+  ASSERT_EQ(cut.unasked.cuts.size(), 1U);
+  EXPECT_EQ(cut.unasked.cuts.front().runs + 2, cut.runs) << "all but the two that it is planned by";
+  EXPECT_NE(text.find("they take at least that long"), std::string::npos) << text;
+  options.time = trials::Budget{[] { return std::optional{1e9}; }};
   options.samples = 2;
-  EXPECT_FALSE(analyse(endless, options).was_fitted);
+  EXPECT_FALSE(analyse(endless, options).unasked.lacked_time());
 }
 
 TEST(SensitivityStudy, NothingIsKnownWithoutTheUnchangedRun) {

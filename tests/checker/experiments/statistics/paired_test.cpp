@@ -119,6 +119,22 @@ TEST(PairedDifferences, RunsThatDoNotComplete) {
   EXPECT_EQ(neither_relative.shift().high, unreached);
 }
 
+TEST(PairedDifferences, BetweenBoundsOnlyTheSureEndCounts) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PairedDifferences at_least;
+  for (int k = 0; k < 6; ++k) at_least.add_between(2, infinity);
+  const Shift more = at_least.shift();
+  EXPECT_EQ(more.estimate, 2);
+  EXPECT_EQ(more.low, 2);
+  EXPECT_EQ(more.high, infinity);
+  EXPECT_TRUE(more.is_more());
+  PairedDifferences nothing;
+  for (int k = 0; k < 6; ++k) nothing.add_between(-infinity, infinity);
+  EXPECT_EQ(nothing.shift().estimate, 0);
+  EXPECT_FALSE(nothing.shift().is_more() || nothing.shift().is_less());
+  EXPECT_FALSE(nothing.all_zero());
+}
+
 TEST(PairedDifferences, OneUnknownPairOfTwelveWidensTheIntervalByOne) {
   // Ranks 3 and 10 of −∞ 2 … 12, and of 2 … 12 +∞; the median of 0 2 … 12.
   const Shift shift = shift_of({nan, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12});

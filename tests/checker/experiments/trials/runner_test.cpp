@@ -112,18 +112,6 @@ TEST_P(TrialRunner, SeveralPhasesCountTogether) {
   EXPECT_TRUE(runner.each(0, [](std::size_t) { return false; }));
 }
 
-TEST_P(TrialRunner, KnowsHowManyMoreFitIntoATime) {
-  Runner runner{GetParam()};
-  (void)runner.each(8, [](std::size_t) {
-    std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    return true;
-  });
-  const std::size_t fits = runner.fitting(1);  // 100 on each thread
-  EXPECT_LE(fits, 100 * GetParam());
-  EXPECT_GE(fits, 10U);  // on a loaded machine
-  EXPECT_EQ(runner.fitting(0), 1U);
-}
-
 TEST_P(TrialRunner, SimulationsEndWhenProgressSaysSo) {
   model::Scenario scenario;
   scenario.deployment = model::Deployment::homogeneous(2, 1, 2);

@@ -1,6 +1,8 @@
 // Changes that do not matter are set back, those that do are kept.
 #include "checker/experiments/tune/reduce.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "checker/experiments/statistics/completion.hpp"
@@ -190,6 +192,28 @@ TEST(TuneDifference, OfRunsThatDoNotComplete) {
   const std::vector<Outcome> neither(6, incomplete(0.1));
   EXPECT_FALSE(is_clearly_more(difference(none, neither).completion, 0.02));
   EXPECT_FALSE(is_clearly_less(difference(neither, none).completion, 0.02));
+}
+
+/// What was cut takes longer, and no more is known.
+TEST(TuneDifference, OfRunsThatWereCut) {
+  Outcome cut = incomplete(0.5);
+  cut.cut = model::Nanoseconds{4'000'000'000};
+  cut.counts.heartbeat = 400;
+  const std::vector<Outcome> longer(6, cut);
+  const std::vector<Outcome> all(6, outcome_of(1e9, 100));
+  const Difference less = difference(all, longer);
+  EXPECT_DOUBLE_EQ(less.completion.estimate, std::log(0.25)) << "at least by so much";
+  EXPECT_DOUBLE_EQ(less.completion.high, std::log(0.25));
+  EXPECT_EQ(less.completion.low, -statistics::unreached);
+  EXPECT_TRUE(is_clearly_less(less.completion, 0.02));
+  EXPECT_TRUE(is_clearly_less(less.messages, 0.02));
+  EXPECT_TRUE(is_clearly_more(difference(longer, all).completion, 0.02));
+  // It sends at least 400, so nobody knows whether 500 are more.
+  const std::vector<Outcome> chatty(6, outcome_of(1e9, 500));
+  EXPECT_FALSE(is_clearly_more(difference(chatty, longer).messages, 0.02));
+  const Difference neither = difference(longer, longer);
+  EXPECT_FALSE(neither.completion.is_less() || neither.completion.is_more());
+  EXPECT_FALSE(neither.messages.is_less() || neither.messages.is_more());
 }
 
 TEST(TuneCost, OfRunsThatDoNotCompleteIsWhatTheyMiss) {

@@ -162,5 +162,37 @@ TEST(TuneDeploy, SaysWhatLinuxMustAllowAndWhatTheTransportCosts) {
   EXPECT_NE(list[1].find("shared memory"), std::string::npos);
 }
 
+/// How far apart processes start is a knob like others, in words, where processors are known.
+TEST(TuneSpace, SearchesLaunchPlans) {
+  const auto fleet = read_subject("fleet-4x2x20", {}, "", specs);
+  ASSERT_TRUE(fleet) << to_string(fleet.error());
+  Space space;
+  add_launch_plan(fleet->scenario, space);
+  ASSERT_EQ(space.dimensions.size(), 1U);
+  const Dimension& starts = space.dimensions.front();
+  EXPECT_EQ(starts.key, launch::plan_key);
+  EXPECT_EQ(starts.print(starts.unchanged), "process by process, 100ms apart");
+  EXPECT_EQ(starts.print(starts.value_at(0)), "all at once");
+  EXPECT_EQ(starts.print(starts.value_at(1)), "process by process, 2s apart");
+  EXPECT_TRUE(starts.is_logarithmic());
+  EXPECT_LT(starts.value_at(0.5), 100'000'000) << "in factors from 1 ms on";
+  EXPECT_GT(starts.value_at(0.5), 10'000'000);
+  EXPECT_EQ(starts.position_of(starts.value_at(0)), 0);
+  EXPECT_EQ(space.plan(space.unchanged()), std::nullopt);
+  EXPECT_EQ(space.plan({0}), (launch::Plan{launch::Order::at_once}));
+  EXPECT_EQ(space.apply(fleet->scenario, {0}), fleet->scenario) << "runs follow it";
+}
+
+TEST(TuneSpace, SaysWhyALaunchPlanStaysAsItIs) {
+  const auto why = [](const char* scenario, const std::vector<std::string>& changes) {
+    const auto subject = read_subject(scenario, changes, "fastdds-2.6.11", specs);
+    Space space;
+    if (subject) add_launch_plan(subject->scenario, space);
+    return space.fixed.size() == 1 ? space.fixed.front().why : std::string{};
+  };
+  EXPECT_NE(why("live-5x20", {}).find("hosts"), std::string::npos);
+  EXPECT_NE(why("rejoin-fastdds", {}).find("first starts"), std::string::npos);
+}
+
 }  // namespace space_test
 }  // namespace stormproof::tune

@@ -204,22 +204,21 @@ TEST(TuneStudy, WhatThereIsNoTimeForIsNotAskedFor) {
   options.budget = 100'000;
   options.samples = 1'000;
   const auto started = std::chrono::steady_clock::now();
-  options.seconds_left = [started] {
+  options.time = trials::Budget{[started] {
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - started;
     return std::optional{std::max(1.0 - passed.count(), 0.0)};
-  };
+  }};
   const Report report = study(subject, options);
-  EXPECT_TRUE(report.was_fitted);
+  EXPECT_TRUE(report.unasked.lacked_time());
   EXPECT_NE(report.answer, Answer::interrupted);
-  EXPECT_LT(report.budget, options.budget);
   EXPECT_LT(report.compared.count, options.samples);
   const std::string text = report::to_text(
       document_of(report, {.scenario = "small", .subject = subject, .options = options}));
   EXPECT_NE(text.find("to keep to --time"), std::string::npos);
-  options.seconds_left = [] { return std::optional{1e9}; };
+  options.time = trials::Budget{[] { return std::optional{1e9}; }};
   options.budget = 50;
   options.samples = 6;
-  EXPECT_FALSE(study(subject, options).was_fitted);
+  EXPECT_FALSE(study(subject, options).unasked.lacked_time());
 }
 
 /// A row for the queue of the socket only where the channel has one that is smaller.
