@@ -34,7 +34,7 @@ bool is_living(const Scenario& scenario) {
 }
 
 const fsm::composition::CompositionInfo& living_composition_of(const DdsProfile& dds) {
-  const std::string name = std::string{traits_of(dds).name} + "-living";
+  const std::string name = std::string{composition_of(dds).name} + "-living";
   return *std::ranges::find(fsm::composition::compositions(), name,
                             &fsm::composition::CompositionInfo::name);
 }

@@ -34,6 +34,9 @@ enum class Discovery : std::uint8_t { simple, server, super_client, static_peers
 /// Whether a Discovery Server sends again what has not been acknowledged whenever something
 /// arrives.
 enum class Relay : std::uint8_t { repeat, once };
+/// What becomes of a client that a Discovery Server hears of again while it still tells others that
+/// the client is gone.
+enum class Rejoin : std::uint8_t { dropped, known };
 /// What a client knows of a Discovery Server before it hears of it.
 enum class ServerKnown : std::uint8_t { guid, locator };
 
@@ -176,6 +179,7 @@ struct ServerProfile {
   Nanoseconds pdp_heartbeat_response_delay{11'000'000};
   Relay relay = Relay::repeat;
   ServerKnown known = ServerKnown::guid;
+  Rejoin rejoin = Rejoin::dropped;
 
   bool operator==(const ServerProfile&) const = default;
 };

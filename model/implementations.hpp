@@ -230,8 +230,6 @@ inline constexpr ImplementationTraits traits_of_programs{
   ImplementationTraits traits = traits_of_fastdds_static();
   traits.rules = "the rules of Fast DDS's Discovery Server";
   traits.has_server = true;
-  traits.knows_lives = false;
-  traits.has_living_composition = false;
   traits.is_known_to_engines = false;
   traits.has_processor_times = false;
   traits.has_open_loop = false;

@@ -27,7 +27,7 @@ bool is_replaced(const Life& life, std::uint32_t participant) {
 }
 
 std::vector<bool> those_who_die(const Scenario& scenario) {
-  std::vector<bool> dying(scenario.deployment.size());
+  std::vector<bool> dying(scenario.deployment.size() + 1);
   if (!scenario.deployment.life || !traits_of(scenario.dds).has_living_composition) return dying;
   const Life& life = *scenario.deployment.life;
   for (const Mute& mute : life.mute) dying[mute.participant] = true;
@@ -38,14 +38,26 @@ std::vector<bool> those_who_die(const Scenario& scenario) {
   return dying;
 }
 
+HostId host_of(const Deployment& deployment, std::uint32_t participant) {
+  const auto& all = deployment.participants;
+  return participant < all.size() ? all[participant].host : HostId{};
+}
+
+bool checks_lease(const Scenario& scenario, std::uint32_t i, std::uint32_t j) {
+  const std::uint32_t server = scenario.deployment.size();
+  return !traits_of(scenario.dds).has_server || i == server || j == server;
+}
+
 bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
            Nanoseconds now) {
   if (!deployment.life) return true;
   const Life& life = *deployment.life;
   if (is_away(life, i, emitted) || is_away(life, j, now)) return false;
-  const Participant& receiver = deployment.participants[j];
-  if (now < receiver.ready.value_or(receiver.start)) return false;
-  const auto host = [&](std::uint32_t k) { return deployment.participants[k].host.value; };
+  if (j < deployment.size()) {
+    const Participant& receiver = deployment.participants[j];
+    if (now < receiver.ready.value_or(receiver.start)) return false;
+  }
+  const auto host = [&](std::uint32_t k) { return host_of(deployment, k).value; };
   if (host(i) == host(j)) return true;
   const auto is_one = [&](Reach reach, std::uint32_t number, std::uint32_t k) {
     return reach == Reach::all || number == (reach == Reach::host ? host(k) : k);
@@ -114,8 +126,11 @@ bool comes_back_in_order(const Deployment& deployment) {
   for (std::size_t k = 0; k < restarts.size(); ++k) {
     const Restart& restart = restarts[k];
     const bool is_first = k == 0 || restarts[k - 1].participant != restart.participant;
-    if (restart.participant >= deployment.size()) continue;
-    if (is_first && restart.stop < deployment.participants[restart.participant].start) return false;
+    const bool is_listed = restart.participant < deployment.size();
+    if (is_first && is_listed &&
+        restart.stop < deployment.participants[restart.participant].start) {
+      return false;
+    }
     if (is_first) continue;
     const Restart& before = restarts[k - 1];
     if (before.identity == Identity::fresh || restart.stop < before.start) return false;
@@ -155,9 +170,33 @@ Scenario as_run(const Scenario& scenario) {
   return all;
 }
 
+namespace {
+
+std::uint32_t successors_of(const Deployment& deployment) {
+  return static_cast<std::uint32_t>(
+      std::ranges::count(deployment.life->restarts, Identity::fresh, &Restart::identity));
+}
+
+/// A Discovery Server is the one after all others.
+void renumber_server(Life& life, std::uint32_t before, std::uint32_t after) {
+  const auto renumber = [&](std::uint32_t& participant) {
+    if (participant == before) participant = after;
+  };
+  for (Mute& mute : life.mute) renumber(mute.participant);
+  for (Lease& lease : life.leases) renumber(lease.participant);
+  for (Restart& restart : life.restarts) renumber(restart.participant);
+  for (Outage& outage : life.outages) {
+    if (outage.from_reach == Reach::participant) renumber(outage.from);
+    if (outage.to_reach == Reach::participant) renumber(outage.to);
+  }
+}
+
+}  // namespace
+
 Deployment with_successors(const Deployment& deployment) {
   Deployment all = deployment;
   if (!has_successors(deployment)) return all;
+  renumber_server(*all.life, deployment.size(), deployment.size() + successors_of(deployment));
   for (const Restart& restart : deployment.life->restarts) {
     if (restart.identity != Identity::fresh) continue;
     Participant successor = deployment.participants[restart.participant];

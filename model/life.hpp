@@ -13,14 +13,20 @@ namespace stormproof::model {
 [[nodiscard]] bool is_away(const Life& life, std::uint32_t participant, Nanoseconds time);
 /// Whether somebody else comes back for it; it is never there again.
 [[nodiscard]] bool is_replaced(const Life& life, std::uint32_t participant);
-/// By participant: whether it is gone for ever some day, and nobody may hold it then. Discovery
-/// waits for nothing of it. Only under rules whose leases act by themselves; by others who falls
-/// silent is missing for ever.
+/// By participant, a Discovery Server's too: whether it is gone for ever some day, and nobody may
+/// hold it then. Discovery waits for nothing of it. Only under rules whose leases act by
+/// themselves; by others who falls silent is missing for ever.
 [[nodiscard]] std::vector<bool> those_who_die(const Scenario& scenario);
 /// Whether j takes now what i has emitted then: neither is away, j is ready, and no outage is
 /// between them.
 [[nodiscard]] bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j,
                          Nanoseconds emitted, Nanoseconds now);
+/// The host of a participant; a Discovery Server, which is one more than the deployment has, is on
+/// the first one.
+[[nodiscard]] HostId host_of(const Deployment& deployment, std::uint32_t participant);
+/// Whether j forgets i once i's lease is over. With a Discovery Server that looks after its
+/// clients' leases and they after its, and of each other they hear from the server.
+[[nodiscard]] bool checks_lease(const Scenario& scenario, std::uint32_t i, std::uint32_t j);
 /// Its lease; nothing: it is never forgotten.
 [[nodiscard]] std::optional<Nanoseconds> lease_of(const Life& life, std::uint32_t participant);
 /// Whether somebody may have to be learned again.

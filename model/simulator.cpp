@@ -13,6 +13,7 @@
 #include "model/engine/network.hpp"
 #include "model/engine/run_state.hpp"
 #include "model/fastdds/living_protocol.hpp"
+#include "model/fastdds/living_server_protocol.hpp"
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/server_protocol.hpp"
 #include "model/implementations.hpp"
@@ -227,10 +228,11 @@ RunResult simulate(const Scenario& scenario, const RunOptions& options,
 RunResult simulate(const Scenario& scenario, const RunOptions& options) {
   if (is_living(scenario)) {
     const SameHostPairs same_host = same_host_pairs(scenario.dds);
-    const bool is_cyclone = traits_of(scenario.dds).has_event_thread;
+    const ImplementationTraits& traits = traits_of(scenario.dds);
     return simulate(scenario, options,
-                    is_cyclone ? maker_of<cyclone::LivingProtocol>(same_host)
-                               : maker_of<fastdds::LivingProtocol>(same_host));
+                    traits.has_event_thread ? maker_of<cyclone::LivingProtocol>(same_host)
+                    : traits.has_server     ? maker_of<fastdds::LivingServerProtocol>(same_host)
+                                            : maker_of<fastdds::LivingProtocol>(same_host));
   }
   const auto maker = [&](auto composition) {
     return maker_for(composition, same_host_pairs(scenario.dds));

@@ -161,9 +161,9 @@ std::string_view why_not_mixed(const Property& property, const model::Scenario& 
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  const bool is_read = is_living && property.of_lives &&
-                       (traits.writer == model::Writer::stateful ||
-                        (traits.has_event_thread && property.about == Vocabulary::rules));
+  const bool is_read =
+      is_living && property.of_lives &&
+      (traits.writer == model::Writer::stateful || property.about == Vocabulary::rules);
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
   if (is_read) why = {};
   if (why.empty()) why = why_not_mixed(property, scenario);
@@ -172,6 +172,10 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
     if (traits.has_event_thread) {
       return "it is stated for participants of Cyclone DDS that nobody forgets and that announce "
              "to no ports (deployment.life, dds.peers)";
+    }
+    if (traits.has_server) {
+      return "it is stated for participants that nobody forgets; with a Discovery Server and "
+             "deployment.life only machines, network, results and what rules do are checked";
     }
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";

@@ -23,6 +23,12 @@ struct HearReader : Opaque {
   }
 };
 
+/// Which ACKNACK of its reader's participant on the stream it is, from 1 on, if that may come back
+/// under its name having forgotten how many there were; 0: of anybody else. And which one the
+/// writer has heard last.
+struct AckNackNumber : Amount {};
+struct AckNackHeard : Number<owner::relation> {};
+
 /// The sides that the pair's source has of control-only relations with its destination are new
 /// ones.
 struct ForgetTopics : Opaque {
@@ -62,6 +68,7 @@ struct Forgetting {
   static void forget_reader(W& w) {
     w.renew(Suppression{});
     w.set(SomeConfirmed{}, typename W::Bool(false));
+    w.set(AckNackHeard{}, typename W::Int(0));
   }
   template <class W>
   static void forget_peer(W& w) {
@@ -115,11 +122,16 @@ struct HeardHeartbeat : Rule<Received<Heartbeat>> {
     w.call(HearFrom{});
   }
 };
+/// One that has been heard before, by its number, is ignored.
 struct HeardAckNack : Rule<Received<AckNack>> {
   template <class W>
   static void run(W& w) {
     w.reverse([](auto& back) { back.call(HearFrom{}); });
-    AckNackArrives::run(w);
+    const auto number = w(AckNackNumber{});
+    w.when(!(number > 0) || number > w(AckNackHeard{}), [&] {
+      w.set(AckNackHeard{}, number);
+      AckNackArrives::run(w);
+    });
   }
 };
 struct HeardControlHeartbeat : Rule<Received<control::UserHeartbeat>> {
@@ -164,7 +176,7 @@ struct FastDdsLiving : Implementation {
   using AckNack = fastdds::AckNack;
   using Parts = FastDds::Parts;
   using Timers = Joined<FastDds::Timers, TypeList<LeaseCheck, Return>>;
-  using State = Joined<FastDds::State, TypeList<ForgottenAt, LeaseRuns>>;
+  using State = Joined<FastDds::State, TypeList<ForgottenAt, LeaseRuns, AckNackHeard>>;
   using Packets = FastDds::Packets;
   using Occasions = FastDds::Occasions;
   using Rules = Joined<

@@ -144,43 +144,56 @@ struct LearnerReplyIsDue : Rule<Due<LearnerReplyDue>> {
   }
 };
 
-/// What the relation's reader does with DATA, a GAP and a HEARTBEAT.
-struct TakePacket : Procedure {
-  template <class W>
-  static void body(W& w) {
-    w.when(w(LearnerOpen{}), [&] {
-      w.perform(TakeRelayed{});
-      w.when(w(CarriesHeartbeat{}) && !w(RunEnds{}), [&] {
-        w.set(LearnerHeartbeatSeen{}, typename W::Bool(true));
-        request<LearnerReply, LearnerResponseDelay, LearnerReplyDue>(w);
+/// What a client's readers do with DATA, GAPs and HEARTBEATs. `C` says
+///   C::Take       the step that notes what they say
+///   C::heeds(w)   whether the packet's HEARTBEAT, if it has one, counts
+template <class C>
+struct LearnerRules {
+  struct TakePacket : Procedure {
+    template <class W>
+    static void body(W& w) {
+      w.when(w(LearnerOpen{}), [&] {
+        w.perform(typename C::Take{});
+        w.when(C::heeds(w) && !w(RunEnds{}), [&] {
+          w.set(LearnerHeartbeatSeen{}, typename W::Bool(true));
+          request<LearnerReply, LearnerResponseDelay, LearnerReplyDue>(w);
+        });
       });
-    });
-  }
-};
-/// Who knows the server by its locator reads nothing before the server's own announcement.
-struct RelayedDataArrives : Rule<Received<RelayedData>> {
-  template <class W>
-  static void run(W& w) {
-    w.when(w(KnownByLocator{}) && w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
-      w.raise(LearnerOpens{});
-      w.reverse([](auto& client) {
-        client.emit(RegistrationHeartbeat{}, says());
-        arm_registration(client);
+    }
+  };
+  /// Who knows the server by its locator reads nothing before the server's own announcement.
+  struct RelayedDataArrives : Rule<Received<RelayedData>> {
+    template <class W>
+    static void run(W& w) {
+      w.when(w(KnownByLocator{}) && w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
+        w.raise(LearnerOpens{});
+        w.reverse([](auto& client) {
+          client.emit(RegistrationHeartbeat{}, says());
+          arm_registration(client);
+        });
       });
-    });
-    w.call(TakePacket{});
-  }
+      w.call(TakePacket{});
+    }
+  };
+  struct RelayHeartbeatArrives : Rule<Received<RelayHeartbeat>> {
+    template <class W>
+    static void run(W& w) {
+      w.call(TakePacket{});
+    }
+  };
+  struct GapArrives : Rule<Received<Gap>> {
+    template <class W>
+    static void run(W& w) {
+      w.call(TakePacket{});
+    }
+  };
+  using Rules = TypeList<RelayedDataArrives, RelayHeartbeatArrives, GapArrives>;
 };
-struct RelayHeartbeatArrives : Rule<Received<RelayHeartbeat>> {
+struct HeedsAll {
+  using Take = TakeRelayed;
   template <class W>
-  static void run(W& w) {
-    w.call(TakePacket{});
-  }
-};
-struct GapArrives : Rule<Received<Gap>> {
-  template <class W>
-  static void run(W& w) {
-    w.call(TakePacket{});
+  static auto heeds(W& w) {
+    return w(CarriesHeartbeat{});
   }
 };
 
@@ -271,24 +284,29 @@ struct DescriptorsArrive : Rule<Happens<Arrives>> {
   }
 };
 
-struct RunRoutine : Procedure {
-  template <class W>
-  static void body(W& w) {
-    w.perform(UpdateDatabase{});
-    w.when(w(SomethingUnacknowledged{}), [&] { w.after(RoutinePeriod{}, RoutineAgain{}); });
-  }
-};
-struct RoutineRuns : Rule<Due<RoutineDue>> {
-  template <class W>
-  static void run(W& w) {
-    expire<Routine>(w, [&] { w.call(RunRoutine{}); });
-  }
-};
-struct RoutineRunsAgain : Rule<Due<RoutineAgain>> {
-  template <class W>
-  static void run(W& w) {
-    w.call(RunRoutine{});
-  }
+/// `Update` is the step of the database.
+template <class Update>
+struct RoutineRules {
+  struct RunRoutine : Procedure {
+    template <class W>
+    static void body(W& w) {
+      w.perform(Update{});
+      w.when(w(SomethingUnacknowledged{}), [&] { w.after(RoutinePeriod{}, RoutineAgain{}); });
+    }
+  };
+  struct RoutineRuns : Rule<Due<RoutineDue>> {
+    template <class W>
+    static void run(W& w) {
+      expire<Routine>(w, [&] { w.call(RunRoutine{}); });
+    }
+  };
+  struct RoutineRunsAgain : Rule<Due<RoutineAgain>> {
+    template <class W>
+    static void run(W& w) {
+      w.call(RunRoutine{});
+    }
+  };
+  using Rules = TypeList<RoutineRuns, RoutineRunsAgain>;
 };
 
 // The server's relays. ----------------------------------------------------------------------------
@@ -427,13 +445,12 @@ struct FastDdsServer {
       TypeList<ClientAnnounces, ClientSyncIsDue, RegistrationAckNackArrives, RegistrationExpires,
                RegistrationArrives, RegistrationHeartbeatArrives, RegistrationReplyIsDue,
                RegistrationInitialDue>;
-  using Exchange =
-      TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, RelayedDataArrives,
-               RelayHeartbeatArrives, GapArrives, DescriptorsArrive, RoutineRuns, RoutineRunsAgain,
-               RelayOpened, ChangeIsInserted, ThreadSends, ChangesAreSkipped, ChangeIsServed,
-               ChangeIsDelivered, RelayedAckNackArrives, RelayResponds, RelaySuppressionEnds,
-               RelayExpires>;
-  using Rules = Joined<Announcing, Exchange>;
+  using Learning = Joined<TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue>,
+                          LearnerRules<HeedsAll>::Rules, TypeList<DescriptorsArrive>>;
+  using Relaying = TypeList<RelayOpened, ChangeIsInserted, ThreadSends, ChangesAreSkipped,
+                            ChangeIsServed, ChangeIsDelivered, RelayedAckNackArrives, RelayResponds,
+                            RelaySuppressionEnds, RelayExpires>;
+  using Rules = Joined<Announcing, Learning, RoutineRules<UpdateDatabase>::Rules, Relaying>;
   using IsOpen = RelayOpen;
   static constexpr std::array unused{
       Unused{"Change", "requested", "the step that feeds it answers SomeRequested"},

@@ -138,6 +138,10 @@ class WatchedWorld {
     world_.for_streams(each(body, site));
   }
   template <class Body>
+  void for_known_peers(Body&& body, Site site = Site::here()) {
+    world_.for_known_peers(each(body, site));
+  }
+  template <class Body>
   void reverse(Body&& body, Site site = Site::here()) {
     world_.reverse([&](auto& back) {
       auto inside = around(back, trail_.inside(site));

@@ -6,7 +6,7 @@
 #include "fsm/composition/fastdds.hpp"
 #include "fsm/composition/fastdds_life.hpp"
 #include "fsm/composition/paper.hpp"
-#include "fsm/composition/server.hpp"
+#include "fsm/composition/server_life.hpp"
 #include "fsm/program/record.hpp"
 
 namespace stormproof::fsm::program {
@@ -18,7 +18,8 @@ const std::vector<Program>& programs() {
                                         recorded<composition::server::FastDdsServer>(),
                                         recorded<composition::amended::Amended>(),
                                         recorded<composition::fastdds::FastDdsLiving>(),
-                                        recorded<composition::cyclone::CycloneLiving>()};
+                                        recorded<composition::cyclone::CycloneLiving>(),
+                                        recorded<composition::server::FastDdsServerLiving>()};
   return all;
 }
 

@@ -10,6 +10,7 @@
 
 #include "fsm/composition/life.hpp"
 #include "model/engine/discovery_base.hpp"
+#include "model/implementations.hpp"
 #include "model/life.hpp"
 
 namespace stormproof::model {
@@ -31,11 +32,11 @@ struct LivingColumns : Columns {
   }
 };
 
-/// `Cancellable` are such timers.
-template <class Base, class Composition_, class Cancellable>
-class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Base,
-                                 comp::Joined<LivingThings, Cancellable>,
-                                 LivingColumns<typename Base::OwnColumns>> {
+/// `OfLives` are such timers, and what else the rules remember.
+template <class Base, class Composition_, class OfLives>
+class LivingHost
+    : public Stored<LivingHost<Base, Composition_, OfLives>, Base,
+                    comp::Joined<LivingThings, OfLives>, LivingColumns<typename Base::OwnColumns>> {
   using Below = typename LivingHost::Stored;
 
  public:
@@ -48,7 +49,8 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
     for (std::uint32_t i = 0; i < run.topology.participant_count(); ++i) {
       leases_.push_back(lease_of(life_, i).value_or(Nanoseconds{}).count());
     }
-    for (std::uint32_t relation = 0; relation < run.topology.relation_count(); ++relation) {
+    for (std::uint32_t relation = 0; !has_server_ && relation < run.topology.relation_count();
+         ++relation) {
       if (this->ends(relation).cross_host && !is_required(relation)) {
         run.missing -= run.topology.descriptor_count(relation);
       }
@@ -79,11 +81,11 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
     this->renew_silently(part, relation);
   }
 
-  /// Nobody is to know who dies.
+  /// Nobody is to know who dies: of other hosts, or with a server, of any.
   using Below::assign;
   void assign(comp::Recognised known, std::uint32_t pair, bool is_known) {
     const Pair& ends = this->topology().pair(pair);
-    if (ends.cross_host && dying_[ends.source] && !dying_[ends.destination]) {
+    if ((ends.cross_host || has_server_) && dying_[ends.source] && !dying_[ends.destination]) {
       this->run_.missing += is_known ? 1U : 0U;
       this->run_.missing -= this->value(known, pair) ? 1U : 0U;
     }
@@ -93,7 +95,9 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
   using Base::answer;
   template <class World>
   [[nodiscard]] std::int64_t answer(comp::LeaseDuration, const World& w) const {
-    return leases_[this->topology().pair(w.template number<comp::owner::pair>()).source];
+    const Pair& ends = this->topology().pair(w.template number<comp::owner::pair>());
+    const bool is_checked = checks_lease(this->run_.scenario, ends.source, ends.destination);
+    return is_checked ? leases_[ends.source] : 0;
   }
 
   [[nodiscard]] std::vector<MissingDescriptor> missing(std::size_t limit) override {
@@ -159,13 +163,15 @@ class LivingHost : public Stored<LivingHost<Base, Composition_, Cancellable>, Ba
     this->state(part, n) = fsm::Stepper<typename P::Machine>::initial;
   }
 
-  const Life life_;
-
- private:
+  /// Whether discovery waits for it.
   [[nodiscard]] bool waits_for(std::uint32_t participant) const {
     return !is_replaced(life_, participant) && !dying_[participant];
   }
 
+  const Life life_;
+
+ private:
+  const bool has_server_ = traits_of(this->run_.scenario.dds).has_server;
   const std::vector<bool> dying_;     // by participant
   std::vector<std::int64_t> leases_;  // by participant; 0: never forgotten
 };

@@ -56,7 +56,8 @@ struct PacketNumbers {
                                    ///< time, of those that count; control-only relations: how many
                                    ///< samples it carries
   std::uint32_t repair_data = 0;   ///< and how many of them as repeated; control-only relations:
-                                   ///< the last sample that it carries, announces or acknowledges
+                                   ///< the last sample that it carries, announces or acknowledges;
+                                   ///< ACKNACK of a server that has a life: its number
   std::uint16_t heartbeats = 0;  ///< how many HEARTBEATs ride in it; the receiver sees them as one
   PacketKind kind{};
   Stream stream{};
@@ -79,6 +80,8 @@ struct PacketNumbers {
   [[nodiscard]] std::uint32_t relation() const {
     return 2 * pair + static_cast<std::uint32_t>(stream);
   }
+  [[nodiscard]] std::uint32_t number_of_acknack() const { return repair_data; }
+  void set_number_of_acknack(std::uint32_t k) { repair_data = k; }
   // Of a control-only relation, whose samples have the numbers from 1 on.
   [[nodiscard]] std::uint32_t samples() const { return initial_data; }
   [[nodiscard]] std::uint32_t last_sample() const { return repair_data; }

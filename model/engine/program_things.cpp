@@ -7,6 +7,7 @@
 #include "fsm/composition/amended.hpp"
 #include "fsm/composition/cyclone_life.hpp"
 #include "fsm/composition/fastdds_life.hpp"
+#include "fsm/composition/server_life.hpp"
 #include "model/engine/composition_knobs.hpp"
 #include "model/engine/timer_kinds.hpp"
 
@@ -77,6 +78,7 @@ std::map<std::string_view, EventKind> event_kinds() {
   comp::for_each_type(comp::amended::Amended::Timers{}, add);
   comp::for_each_type(comp::fastdds::FastDdsLiving::Timers{}, add);
   comp::for_each_type(comp::cyclone::CycloneLiving::Timers{}, add);
+  comp::for_each_type(comp::server::FastDdsServerLiving::Timers{}, add);
   return all;
 }
 

@@ -19,7 +19,7 @@ ControlRelations::ControlRelations(const Topology& topology, const Scenario& sce
     const Pair& p = topology.pair(pair);
     const bool ask = looks_up_types(dds_of(scenario, p.source)) &&
                      looks_up_types(dds_of(scenario, p.destination));
-    lookups_.push_back(ask ? topic::lookups.size() : 0);
+    lookups_.push_back(static_cast<std::uint8_t>(ask ? topic::lookups.size() : 0));
     std::uint32_t relations = lookups_.back();
     if (p.cross_host) relations += 1;  // a Discovery Server has no topics
     if (p.cross_host && p.source != participants && p.destination != participants) {

@@ -15,11 +15,12 @@ constexpr std::uint32_t own_subscriptions = default_subscriptions - 2;
 constexpr std::uint32_t rosout_publication = 1;
 }  // namespace
 
-Database::Database(const Topology& topology, Discovery discovery, model::Relay relaying)
+Database::Database(const Topology& topology, Discovery discovery, const ServerProfile& server)
     : discovery_{discovery},
-      relaying_{relaying},
+      profile_{server},
       server_{topology.participant_count() - 1},
-      contents_(topology.participant_count()) {
+      contents_(topology.participant_count()),
+      standing_(topology.participant_count()) {
   for (std::uint32_t i = 0; i <= server_; ++i) contents_[i] = {i, true, {}, 0};
   for (std::uint32_t i = 0; i < server_; ++i) {
     for (const Stream s : streams) {
@@ -83,31 +84,87 @@ Database::Lists Database::update() {
 }
 
 void Database::take_participants(Lists& lists) {
-  for (const std::uint32_t i : std::exchange(joining_, {})) {
-    ++news_;
-    all_noted = false;
-    if (discovery_ != Discovery::super_client) continue;
-    for (std::uint32_t topic = 0; topic < topics_.size(); ++topic) {
-      const Topic& t = topics_[topic];
-      for (const auto* items : {&t.publications, &t.subscriptions}) {
-        for (const Item item : *items) {
-          if (contents_[item].participant != i) mark(item, i);
-        }
-      }
-      if (!t.publications.empty() || !t.subscriptions.empty()) soil(topic);
-    }
-    super_clients_.push_back(i);
-    const Item own = announcement(server_);
-    if (!listed_[own]) {
-      listed_[own] = true;
-      lists.announcements.insert(lists.announcements.begin(), own);
-    }
+  for (const auto [i, leaves] : std::exchange(waiting_ones_, {})) {
+    leaves ? take_leave(lists, i) : take_in(lists, i);
   }
 }
 
+/// Whose goodbye is still being told is dropped, or withdraws it.
+void Database::take_in(Lists& lists, std::uint32_t i) {
+  if (is_gone(i)) {
+    if (profile_.rejoin == Rejoin::dropped) return;
+    withdraw(lists, i);
+  }
+  standing_[i] = Standing::there;
+  ++news_;
+  all_noted = false;
+  if (discovery_ != Discovery::super_client) return;
+  for (std::uint32_t topic = 0; topic < topics_.size(); ++topic) {
+    const Topic& t = topics_[topic];
+    for (const auto* items : {&t.publications, &t.subscriptions}) {
+      for (const Item item : *items) {
+        if (contents_[item].participant != i) mark(item, i);
+      }
+    }
+    if (!t.publications.empty() || !t.subscriptions.empty()) soil(topic);
+  }
+  super_clients_.push_back(i);
+  const Item own = announcement(server_);
+  if (!listed_[own]) {
+    listed_[own] = true;
+    lists.announcements.insert(lists.announcements.begin(), own);
+  }
+}
+
+/// Its descriptors leave, nobody has to tell it anything any more, and its announcement becomes a
+/// goodbye for those for whom that was.
+void Database::take_leave(Lists& lists, std::uint32_t i) {
+  if (!is_in(i)) return;
+  standing_[i] = Standing::gone;
+  std::erase(super_clients_, i);
+  for (Item item = 0; item < contents_.size(); ++item) {
+    const Contents& c = contents_[item];
+    clear(item, i);
+    if (c.participant != i || c.is_announcement) continue;
+    clear(item);
+    Topic& topic = topics_[topic_of_item(c)];
+    std::erase(c.stream == Stream::pub ? topic.publications : topic.subscriptions, item);
+    lists.leaving.push_back(item);
+  }
+  const Item own = announcement(i);
+  for (std::uint32_t j = 0; j < server_; ++j) {
+    noted_[at(own, j)] = false;
+    waiting_[at(own, j)] = false;
+  }
+  lists.goodbyes.push_back(own);
+}
+
+void Database::withdraw(Lists& lists, std::uint32_t i) {
+  clear(announcement(i));
+  if (std::erase(lists.goodbyes, announcement(i)) == 0) lists.leaving.push_back(announcement(i));
+}
+
+void Database::forget(Item item) {
+  const std::uint32_t i = contents_[item].participant;
+  if (!contents_[item].is_announcement || !is_gone(i)) return;
+  standing_[i] = Standing::unknown;
+  clear(item);
+}
+
+void Database::clear(Item item, std::uint32_t j) {
+  marked_[at(item, j)] = false;
+  noted_[at(item, j)] = false;
+  waiting_[at(item, j)] = false;
+}
+void Database::clear(Item item) {
+  for (std::uint32_t j = 0; j < server_; ++j) clear(item, j);
+}
+
+/// Those of somebody who is not in the database are dropped.
 void Database::take_descriptors() {
   for (const Item item : std::exchange(arrived_, {})) {
     const Contents& c = contents_[item];
+    if (!is_in(c.participant)) continue;
     const std::uint32_t topic = topic_of_item(c);
     Topic& t = topics_[topic];
     const bool publication = c.stream == Stream::pub;
@@ -131,7 +188,7 @@ void Database::add(std::vector<Item>& list, Item item, std::uint32_t j) {
   if (waiting_[at(item, j)] || listed_[item]) return;
   listed_[item] = true;
   list.push_back(item);
-  waiting_[at(item, j)] = relaying_ == model::Relay::once;
+  waiting_[at(item, j)] = profile_.relay == model::Relay::once;
 }
 
 /// The item joins a list if client j needs it. Returns whether its topic has to be looked at again,

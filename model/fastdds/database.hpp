@@ -1,7 +1,8 @@
 // What a Discovery Server knows of its clients and their descriptors, and whom it has to tell what:
 // a client what is on the topics of which it has the other side, a super client everything, and
-// descriptors of a participant only to those who have acknowledged its announcement.
-// Source: specs/guide/discovery-server.md, "The database".
+// descriptors of a participant only to those who have acknowledged its announcement. Who is gone
+// leaves it, and who has been told of it is told that.
+// Source: specs/guide/discovery-server.md, "The database" and "Lives with a server".
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,7 @@ using Item = std::uint32_t;
 
 class Database {
  public:
-  Database(const Topology& topology, Discovery discovery, model::Relay relaying);
+  Database(const Topology& topology, Discovery discovery, const ServerProfile& server);
 
   /// Items are numbered: the announcements of all participants, the server's last, then the
   /// descriptors.
@@ -39,15 +40,22 @@ class Database {
   [[nodiscard]] bool relevant(Item item, std::uint32_t j) const;
 
   // What waits for the routine.
-  void join(std::uint32_t i) { joining_.push_back(i); }
+  void join(std::uint32_t i) { waiting_ones_.push_back({i, false}); }
+  void leave(std::uint32_t i) { waiting_ones_.push_back({i, true}); }
   void arrive(Item item) { arrived_.push_back(item); }
 
   // The routine, step by step.
   /// Client j has acknowledged the item.
   void note(Item item, std::uint32_t j) { noted_[at(item, j)] = true; }
   bool all_noted = false;  ///< of the server's own announcement
+  /// The item has left the history of its relay; a goodbye leaves the database with it.
+  void forget(Item item);
+  [[nodiscard]] bool is_in(std::uint32_t i) const { return standing_[i] == Standing::there; }
+  [[nodiscard]] bool is_gone(std::uint32_t i) const { return standing_[i] == Standing::gone; }
   /// What is to be sent, in order.
   struct Lists {
+    std::vector<Item> leaving;   ///< descriptors of those that are gone, and withdrawn goodbyes
+    std::vector<Item> goodbyes;  ///< announcements that now say that their participant is gone
     std::vector<Item> announcements;
     std::vector<Item> publications;
     std::vector<Item> subscriptions;
@@ -70,14 +78,19 @@ class Database {
   void mark(Item item, std::uint32_t j);
   void soil(std::uint32_t topic);
   void take_participants(Lists& lists);
+  void take_in(Lists& lists, std::uint32_t i);
+  void take_leave(Lists& lists, std::uint32_t i);
+  void withdraw(Lists& lists, std::uint32_t i);
   void take_descriptors();
+  void clear(Item item, std::uint32_t j);
+  void clear(Item item);
   void add(std::vector<Item>& list, Item item, std::uint32_t j);
   bool check(Lists& lists, Item item, std::uint32_t j);
   bool check_topic(Lists& lists, const Topic& topic);
 
-  const Discovery discovery_;
-  const model::Relay relaying_;
-  const std::uint32_t server_;
+  Discovery discovery_;
+  ServerProfile profile_;
+  std::uint32_t server_;
   std::uint32_t shared_topics_ = 2;  // with those of user endpoints
   std::vector<Item> first_;          // by participant and stream
   std::vector<Contents> contents_;   // by item
@@ -87,7 +100,14 @@ class Database {
   std::vector<bool> noted_;
   std::vector<bool> waiting_;
   std::vector<bool> listed_;  // by item: in the lists of this run
-  std::vector<std::uint32_t> joining_;
+  /// Of a participant: unknown, in the database, or what is left of it is a goodbye.
+  enum class Standing : std::uint8_t { unknown, there, gone };
+  struct Waiting {
+    std::uint32_t participant = 0;
+    bool leaves = false;
+  };
+  std::vector<Standing> standing_;  // by participant
+  std::vector<Waiting> waiting_ones_;
   std::vector<Item> arrived_;
   std::vector<std::uint32_t> super_clients_;
   std::uint64_t news_ = 0;

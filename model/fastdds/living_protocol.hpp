@@ -15,14 +15,14 @@ namespace stormproof::model::fastdds {
 struct Creations : comp::Timer<comp::owner::participant> {};
 
 namespace detail {
-using Cancellable =
-    fsm::TypeList<comp::Announcement, comp::AckNackGeneration, comp::InitialAttempt,
-                  rules::SuppressionEnd, rules::NackResponseDue, rules::AsyncRunDue,
-                  control::ControlInitialAttempt, control::ControlReplyDue, Creations>;
+/// Beside timers that can be cancelled, which ACKNACK a writer has heard last.
+using OfLives = fsm::TypeList<rules::AckNackHeard, comp::Announcement, comp::AckNackGeneration,
+                              comp::InitialAttempt, rules::SuppressionEnd, rules::NackResponseDue,
+                              rules::AsyncRunDue, control::ControlInitialAttempt,
+                              control::ControlReplyDue, Creations>;
 }  // namespace detail
 
-class LivingProtocol final
-    : public LivingHost<Protocol, rules::FastDdsLiving, detail::Cancellable> {
+class LivingProtocol : public LivingHost<Protocol, rules::FastDdsLiving, detail::OfLives> {
  public:
   LivingProtocol(RunState& run, Network& network) : LivingHost{run, network} {}
 
@@ -41,6 +41,11 @@ class LivingProtocol final
   void renew(rules::C, std::uint32_t relation) { changes().renew(relation, renewed); }
   template <class P>
   void renew(P part, std::uint32_t n);
+  using LivingHost::answer;
+  template <class World>
+  [[nodiscard]] std::int64_t answer(rules::AckNackNumber, const World& w) const {
+    return w.packet().number_of_acknack();
+  }
   template <class World>
   void perform(rules::HearWriter, World& w) {
     hear_from(control_.pair_of(w.template number<comp::owner::control_relation>()));

@@ -209,6 +209,7 @@ std::uint32_t Protocol::next_recipient(const Packet& heartbeat, std::uint32_t pa
 }
 
 void Protocol::send_acknack(Packet&& packet) {
+  complete_acknack(packet);
   if (crosses(packet.relation())) ++generated_.acknack;
   if (!packet.descriptors.empty()) {
     packet.payload_bytes += static_cast<std::uint32_t>(acknack_bitmap_bytes);

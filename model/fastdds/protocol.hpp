@@ -264,6 +264,8 @@ class Protocol : public Stored<Protocol, DiscoveryBase, Things, Columns,
   [[nodiscard]] Counts& generated() { return generated_; }
 
   // What another way to discover does in its own way.
+  /// What an ACKNACK says besides.
+  virtual void complete_acknack(Packet&) {}
   /// Announcement 0 of participant i.
   virtual void begin_announcing(std::uint32_t i) { start_announcing(i); }
   [[nodiscard]] virtual bool is_notified(std::uint32_t pair, Stream s, std::uint32_t d) const;

@@ -61,6 +61,7 @@ class RelayWriter {
   std::map<std::int64_t, Item> history;
   std::map<Item, std::int64_t> numbers;
   std::int64_t next = 1;
+  std::int64_t heartbeats = 0;            ///< sent so far
   std::vector<std::uint32_t> readers;     ///< relations, in match order
   std::map<std::uint32_t, Reader> about;  ///< by relation
 };

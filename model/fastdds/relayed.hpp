@@ -12,6 +12,7 @@ namespace stormproof::model {
 struct Relayed {
   bool has_data = false;
   bool is_announcement = false;  ///< DATA(p) of `participant`; otherwise a descriptor of it
+  bool is_goodbye = false;       ///< that says that it is gone
   std::uint32_t participant = 0;
   Stream stream{};
   std::uint32_t descriptor = 0;
@@ -20,7 +21,8 @@ struct Relayed {
   bool has_heartbeat = false;
   std::int64_t first = 0;  ///< what the HEARTBEAT announces
   std::int64_t last = 0;
-  std::int64_t base = 0;  ///< of an ACKNACK
+  std::int64_t count = 0;  ///< which HEARTBEAT of the relay it is, from 1 on
+  std::int64_t base = 0;   ///< of an ACKNACK
 
   bool operator==(const Relayed&) const = default;
 };

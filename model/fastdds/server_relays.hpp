@@ -59,6 +59,21 @@ void ServerSteps<Host>::perform(server::ListRelevant, World& w) {
   }
 }
 
+/// What is relevant is unacknowledged again, if it is not in the list anyway.
+template <class Host>
+template <class World>
+void ServerSteps<Host>::perform(server::ListAgain, World& w) {
+  const auto relation = w.template number<comp::owner::relation>();
+  const RelayWriter& writer = relays_[relay_at(w)];
+  RelayWriter::Reader& reader = about(relation);
+  reader.low = std::min(reader.low, writer.first() - 1);
+  for (const auto& [number, item] : writer.history) {
+    if (reader.list.contains(number)) continue;
+    if (!database_.relevant(item, client_of(relation / relay::count))) continue;
+    step<fsm::change_for_reader::ReaderMatched>(reader.list[number], relation);
+  }
+}
+
 template <class Host>
 template <class World>
 void ServerSteps<Host>::perform(server::TakeAckNack, World& w) {
@@ -110,7 +125,7 @@ void ServerSteps<Host>::note_acknowledgements() {
       if (item == own)
         database_.all_noted = true;
       else
-        remove(relay, item);
+        leave_history(relay, item);
     }
   }
 }
@@ -132,19 +147,30 @@ bool ServerSteps<Host>::is_pending(Number relay, std::int64_t number, Item item)
 }
 
 template <class Host>
-template <class World>
-void ServerSteps<Host>::perform(server::UpdateDatabase, World&) {
-  note_acknowledgements();
-  const Database::Lists lists = database_.update();
+void ServerSteps<Host>::insert_all(const Database::Lists& lists) {
   for (const Item item : lists.announcements) insert(relay::announcements, item);
   for (const Item item : lists.publications) insert(relay::publications, item);
   for (const Item item : lists.subscriptions) insert(relay::subscriptions, item);
 }
 
-/// The item gets a new number, also if it is in the history already. The database lists only what
-/// is relevant for somebody.
 template <class Host>
-void ServerSteps<Host>::insert(Number relay, Item item) {
+template <class World>
+void ServerSteps<Host>::perform(server::UpdateWithGoodbyes, World&) {
+  note_acknowledgements();
+  const Database::Lists lists = database_.update();
+  for (const Item item : lists.leaving) remove(relay_of(item), item);
+  for (const Item item : lists.goodbyes) {
+    const bool wanted = insert(relay::announcements, item);
+    if (wanted || relays_[relay::announcements].readers.empty()) continue;
+    run_for_relay<server::Needless>(relay::announcements);
+  }
+  insert_all(lists);
+}
+
+/// The item gets a new number, also if it is in the history already. Whether it is relevant for
+/// somebody, as all is that the database lists but for goodbyes.
+template <class Host>
+bool ServerSteps<Host>::insert(Number relay, Item item) {
   remove(relay, item);
   RelayWriter& writer = relays_[relay];
   const std::int64_t number = writer.append(item);
@@ -154,10 +180,10 @@ void ServerSteps<Host>::insert(Number relay, Item item) {
     step<fsm::change_for_reader::Created>(about(relation).list[number], relation);
     wanted = true;
   }
-  if (!wanted) return;
+  if (!wanted) return false;
   queues_.add({relay, item});
-  host().template run<fsm::composition::Happens<server::Inserted>>(relay::count * server_id() +
-                                                                   relay);
+  run_for_relay<server::Inserted>(relay);
+  return true;
 }
 
 /// Returns the number of packets; changes that nobody wants any more take none.
@@ -180,8 +206,7 @@ std::int64_t ServerSteps<Host>::deliver(SendingQueues::Entry entry) {
     step<fsm::change_for_reader::Serialized>(about(relation).list.at(number), relation);
     host().template run<fsm::composition::Happens<server::Served>>(relation);
   }
-  host().template run<fsm::composition::Happens<server::Delivered>>(relay::count * server_id() +
-                                                                    entry.relay);
+  run_for_relay<server::Delivered>(entry.relay);
   return packets;
 }
 
@@ -206,6 +231,7 @@ Relayed ServerSteps<Host>::data_of(SendingQueues::Entry entry) const {
   Relayed data;
   data.has_data = true;
   data.is_announcement = contents.is_announcement;
+  data.is_goodbye = contents.is_announcement && database_.is_gone(contents.participant);
   data.participant = contents.participant;
   data.stream = contents.stream;
   data.descriptor = contents.descriptor;
@@ -219,21 +245,60 @@ void ServerSteps<Host>::perform(server::TakeRelayed, World& w) {
   const auto relation = w.template number<comp::owner::relation>();
   const Relayed& relayed = *w.packet().relayed;
   Learner& reader = learner(relation);
-  const auto receive = [&](std::int64_t number) {
-    const auto k = static_cast<std::size_t>(number);
-    if (reader.received.size() <= k) reader.received.resize(2 * k + 1);
-    reader.received[k] = true;
-  };
   if (relayed.has_data) {
-    receive(relayed.number);
+    reader.receive(relayed.number);
     reader.announced = std::max(reader.announced, relayed.number);
     host().learn(client_of(relation / relay::count), relayed);
     if (steps_of_.ends_now()) return;
   }
-  std::ranges::for_each(relayed.numbers, receive);
+  for (const std::int64_t number : relayed.numbers) reader.receive(number);
   if (!relayed.has_heartbeat) return;
   reader.base = std::max(reader.base, relayed.first);
   reader.announced = std::max(reader.announced, relayed.last);
+}
+
+/// What is below the base, or has been received, is old news, and so is a HEARTBEAT whose number is
+/// not above that of the last one.
+template <class Host>
+template <class World>
+void ServerSteps<Host>::perform(server::TakeNew, World& w) {
+  const auto relation = w.template number<comp::owner::relation>();
+  const Relayed& relayed = *w.packet().relayed;
+  Learner& reader = learner(relation);
+  const auto is_old = [&](std::int64_t number) {
+    return number < reader.base || reader.has(number);
+  };
+  if (relayed.has_data && !is_old(relayed.number)) {
+    reader.receive(relayed.number);
+    reader.announced = std::max(reader.announced, relayed.number);
+    host().learn(client_of(relation / relay::count), relayed);
+    if (steps_of_.ends_now()) return;
+  }
+  for (const std::int64_t number : relayed.numbers) reader.receive(number);
+  heartbeat_is_new_ = relayed.has_heartbeat && relayed.count > reader.heartbeats;
+  if (!heartbeat_is_new_) return;
+  reader.heartbeats = relayed.count;
+  reader.base = std::max(reader.base, relayed.first);
+  reader.announced = std::max(reader.announced, relayed.last);
+}
+
+template <class Host>
+template <class World>
+void ServerSteps<Host>::perform(server::LoseDatabase, World&) {
+  for (Number client = 0; client < server_id(); ++client) {
+    RunningWorld<Host, comp::owner::pair>{host(),
+                                          steps_of_.topology.pair_between(client, server_id())}
+        .call(server::CloseClient{});
+  }
+  for (Number relay = 0; relay < relay::count; ++relay) {
+    RunningWorld<Host, comp::owner::writer> w{host(), relay::count * server_id() + relay};
+    server::lose_relay(w);
+  }
+  database_ = {steps_of_.topology, dds().discovery, dds().server};
+  relays_ = {};
+  queues_ = {};
+  acknacks_ = {};
+  begin();
 }
 
 template <class Host>
@@ -241,14 +306,10 @@ Relayed ServerSteps<Host>::asks(Number relation, bool initial) {
   Relayed acknack;
   if (initial) return acknack;
   Learner& reader = learner(relation);
-  const auto has = [&](std::int64_t number) {
-    const auto k = static_cast<std::size_t>(number);
-    return k < reader.received.size() && reader.received[k];
-  };
-  while (has(reader.base)) ++reader.base;
+  while (reader.has(reader.base)) ++reader.base;
   acknack.base = reader.base;
   for (std::int64_t number = reader.base; number <= reader.announced; ++number) {
-    if (!has(number)) acknack.numbers.push_back(number);
+    if (!reader.has(number)) acknack.numbers.push_back(number);
   }
   return acknack;
 }

@@ -5,6 +5,7 @@
 //   run<Trigger>(n, packet)   the rule of a trigger, for owner n
 //   learn(client, relayed) a client learns what it has been sent
 //   runs_for_clients<Occasion>(relation), open_builtin(pair)   the rules of any participant
+//   forget_exchange(pair)  the same, if participants have a life
 #pragma once
 
 #include <array>
@@ -12,9 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "fsm/composition/server.hpp"
+#include "fsm/composition/server_life.hpp"
 #include "model/engine/driver.hpp"
 #include "model/engine/packet.hpp"
+#include "model/engine/running_world.hpp"
 #include "model/engine/writer_layout.hpp"
 #include "model/fastdds/database.hpp"
 #include "model/fastdds/relay.hpp"
@@ -32,10 +34,10 @@ class ServerSteps {
  public:
   explicit ServerSteps(RunState& run)
       : steps_of_{run},
-        database_{run.topology, run.scenario.dds.discovery, run.scenario.dds.server.relay},
+        database_{run.topology, run.scenario.dds.discovery, run.scenario.dds.server},
         learners_(std::size_t{relay::count} * run.scenario.deployment.size()),
         changes_{run, MachineRef::Kind::pair} {
-    relays_[relay::announcements].append(database_.announcement(server_id()));
+    begin();
   }
 
   [[nodiscard]] static WriterLayout writer_layout() { return {relay::count, relay::count}; }
@@ -43,11 +45,18 @@ class ServerSteps {
   [[nodiscard]] const std::vector<Number>& readers(Number w) const {
     return relays_[w % relay::count].readers;
   }
-  void changed(server::RelayOpen, Number r, bool) {
+  void changed(server::RelayOpen, Number r, bool open) {
     RelayWriter& writer = relays_[r % relay::count];
+    if (!open) {
+      std::erase(writer.readers, r);
+      writer.about.erase(r);
+      return;
+    }
     writer.readers.push_back(r);
     about(r).low = writer.first() - 1;
   }
+  /// Of a reader that closes its list is gone.
+  void renew(server::Change, Number) {}
 
   /// Runs the rule of a packet between the server and a client; false if it is another one.
   bool take_in(const Packet& packet);
@@ -65,6 +74,27 @@ class ServerSteps {
   [[nodiscard]] bool answer(server::TellsOfServer, const World& w) const {
     const Relayed& relayed = *w.packet().relayed;
     return relayed.is_announcement && relayed.participant == server_id();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::ToServer, const World& w) const {
+    return steps_of_.topology.pair(w.template number<comp::owner::pair>()).destination ==
+           server_id();
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::IsInDatabase, const World& w) const {
+    return database_.is_in(client_of(w.template number<comp::owner::pair>()));
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::HeartbeatIsNew, const World&) const {
+    return heartbeat_is_new_;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::IsAhead, const World& w) const {
+    return w.packet().relayed->base > relays_[relay_at(w)].next;
+  }
+  template <class World>
+  [[nodiscard]] std::int64_t answer(server::RegistrationNumber, const World& w) const {
+    return w.packet().number_of_acknack();
   }
   template <class World>
   [[nodiscard]] bool answer(server::LacksSomething, const World& w) const;
@@ -153,7 +183,12 @@ class ServerSteps {
     }
   }
   template <class World>
-  void perform(server::UpdateDatabase, World&);
+  void perform(server::UpdateDatabase, World&) {
+    note_acknowledgements();
+    insert_all(database_.update());
+  }
+  template <class World>
+  void perform(server::UpdateWithGoodbyes, World&);
   template <class World>
   void perform(server::DeliverNext, World&) {
     packets_sent_ = 0;
@@ -161,6 +196,24 @@ class ServerSteps {
   }
   template <class World>
   void perform(server::TakeRelayed, World& w);
+  template <class World>
+  void perform(server::ForgetExchange, World& w) {
+    host().forget_exchange(w.template number<comp::owner::pair>());
+  }
+  template <class World>
+  void perform(server::JoinGoodbyes, World& w) {
+    database_.leave(client_of(w.template number<comp::owner::pair>()));
+  }
+  template <class World>
+  void perform(server::ForgetRelayed, World& w) {
+    learner(w.template number<comp::owner::relation>()) = {};
+  }
+  template <class World>
+  void perform(server::ListAgain, World& w);
+  template <class World>
+  void perform(server::TakeNew, World& w);
+  template <class World>
+  void perform(server::LoseDatabase, World& w);
 
  protected:
   [[nodiscard]] Number server_id() const { return steps_of_.scenario.deployment.size(); }
@@ -171,20 +224,23 @@ class ServerSteps {
   /// A descriptor that is new to the server.
   void arrive(Number i, Stream s, Number d) { database_.arrive(database_.descriptor(i, s, d)); }
 
+  /// Which one its next ACKNACK to clients is, of their announcements or of a stream.
+  [[nodiscard]] Number next_acknack(Number relay) { return ++acknacks_[relay]; }
+
   // What packets carry.
   /// It asks for all that is missing of what is announced; an initial one claims nothing.
   [[nodiscard]] Relayed contents(server::RelayedAckNack, Number relation, bool initial) {
     return asks(relation, initial);
   }
   /// What the sending thread serves; otherwise it is the server's own announcement.
-  [[nodiscard]] Relayed contents(server::RelayedData, Number relation, bool serves) const {
+  [[nodiscard]] Relayed contents(server::RelayedData, Number relation, bool serves) {
     if (serves) return with_heartbeat(relation, data_of(served_));
     return data_of({relay::announcements, database_.announcement(server_id())});
   }
-  [[nodiscard]] Relayed contents(server::RelayHeartbeat, Number relation, bool) const {
+  [[nodiscard]] Relayed contents(server::RelayHeartbeat, Number relation, bool) {
     return with_heartbeat(relation, {});
   }
-  [[nodiscard]] Relayed contents(server::Gap, Number relation, bool announces) const {
+  [[nodiscard]] Relayed contents(server::Gap, Number relation, bool announces) {
     Relayed gap;
     gap.numbers = irrelevant_;
     return announces ? with_heartbeat(relation, std::move(gap)) : gap;
@@ -195,8 +251,21 @@ class ServerSteps {
   struct Learner {
     std::int64_t base = 1;
     std::int64_t announced = 0;
-    std::vector<bool> received;  ///< by number
+    std::vector<bool> received;   ///< by number
+    std::int64_t heartbeats = 0;  ///< the number of the last HEARTBEAT; in a life
+
+    [[nodiscard]] bool has(std::int64_t number) const {
+      const auto k = static_cast<std::size_t>(number);
+      return k < received.size() && received[k];
+    }
+    void receive(std::int64_t number) {
+      const auto k = static_cast<std::size_t>(number);
+      if (received.size() <= k) received.resize(2 * k + 1);
+      received[k] = true;
+    }
   };
+  /// It has its own announcement alone.
+  void begin() { relays_[relay::announcements].append(database_.announcement(server_id())); }
 
   Host& host() { return static_cast<Host&>(*this); }
   [[nodiscard]] const DdsProfile& dds() const { return steps_of_.scenario.dds; }
@@ -226,20 +295,35 @@ class ServerSteps {
   [[nodiscard]] Relayed asks(Number relation, bool initial);
   [[nodiscard]] Relayed data_of(SendingQueues::Entry entry) const;
   /// It announces all that there is.
-  [[nodiscard]] Relayed with_heartbeat(Number relation, Relayed relayed) const {
+  [[nodiscard]] Relayed with_heartbeat(Number relation, Relayed relayed) {
     relayed.has_heartbeat = true;
     relayed.first = relays_[relation % relay::count].first();
     relayed.last = relays_[relation % relay::count].last();
+    relayed.count = ++relays_[relation % relay::count].heartbeats;
     return relayed;
   }
   void note_acknowledgements();
+  void insert_all(const Database::Lists& lists);
   bool is_pending(Number relay, std::int64_t number, Item item);
   void remove(Number relay, Item item) {
     if (relays_[relay].number_of(item) == 0) return;
     relays_[relay].remove(item);
     queues_.remove({relay, item});
   }
-  void insert(Number relay, Item item);
+  void leave_history(Number relay, Item item) {
+    remove(relay, item);
+    database_.forget(item);
+  }
+  [[nodiscard]] Number relay_of(Item item) const {
+    const Database::Contents& contents = database_.contents(item);
+    if (contents.is_announcement) return relay::announcements;
+    return contents.stream == Stream::pub ? relay::publications : relay::subscriptions;
+  }
+  template <class Occasion>
+  void run_for_relay(Number relay) {
+    host().template run<fsm::composition::Happens<Occasion>>(relay::count * server_id() + relay);
+  }
+  bool insert(Number relay, Item item);
   std::int64_t deliver(SendingQueues::Entry entry);
   bool skip_before(Number relation, std::int64_t number);
 
@@ -248,7 +332,9 @@ class ServerSteps {
   std::array<RelayWriter, relay::count> relays_;
   SendingQueues queues_;
   std::vector<Learner> learners_;  // relay::count · client + relay
+  std::array<Number, relay::count> acknacks_{};
   // Of what is being done.
+  bool heartbeat_is_new_ = false;
   bool some_requested_ = false;
   bool some_irrelevant_ = false;
   std::vector<std::int64_t> irrelevant_;

@@ -16,6 +16,9 @@ EffectNames::EffectNames(const DdsProfile& dds)
   if (!traits_of(dds).has_server) return;
   // Descriptors on their way to the server go by the rules of Fast DDS.
   ids_.merge(fsm::composition::effect_ids(composition_of(dds.implementation)));
+  DdsProfile alone = dds;
+  alone.discovery = Discovery::simple;
+  ids_.merge(fsm::composition::effect_ids(living_composition_of(alone)));
 }
 
 std::string_view EffectNames::take_starter(std::uint64_t insertion) {

@@ -105,6 +105,7 @@ void append_relayed(std::string& out, const Packet& packet) {
   if (relayed.has_data) {
     append(out, R"(,"participant":)", relayed.participant);
     if (!relayed.is_announcement) append(out, R"(,"descriptor":)", relayed.descriptor);
+    if (relayed.is_goodbye) out += R"(,"goodbye":true)";
     append(out, R"(,"number":)", relayed.number);
   }
   const bool asks = packet.kind == PacketKind::relayed_acknack;

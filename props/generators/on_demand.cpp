@@ -117,6 +117,7 @@ void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario)
   server.pdp_nack_suppression_duration = Nanoseconds{pick(6, {11, 0, 2}) * ms};
   server.pdp_heartbeat_response_delay = Nanoseconds{pick(7, {11, 1, 0}) * ms};
   server.relay = seed % 3 == 1 ? Relay::once : Relay::repeat;
+  server.rejoin = seed % 2 == 1 ? Rejoin::known : Rejoin::dropped;
   server.known = pick(9, {0, 1}) == 1 ? ServerKnown::locator : ServerKnown::guid;
   scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
 }
@@ -284,9 +285,28 @@ void draw_amendments(Dice& dice, Scenario& scenario) {
   if (dice.chance(15)) scenario.run_until = RunUntil::quiescence;
 }
 
+namespace {
+/// A Discovery Server begins knowing nobody, and comes back under its name; its clients do not.
+void draw_server(Dice& dice, std::uint32_t server, Life& life) {
+  constexpr std::int64_t ms = 1'000'000;
+  life.stale.clear();
+  for (Restart& restart : life.restarts) restart.identity = Identity::fresh;
+  if (dice.chance(40)) {
+    const Nanoseconds stop{dice.among({0, 100, 700, 1'500}) * ms};
+    const Nanoseconds start = stop + Nanoseconds{dice.among({1, 300, 2'000}) * ms};
+    life.restarts.push_back({server, stop, start, Identity::same});
+  } else if (dice.chance(20)) {
+    life.mute.push_back({server, Nanoseconds{dice.among({500, 2'000}) * ms}});
+  }
+  if (dice.chance(30)) life.leases.push_back({server, Nanoseconds{dice.among({300, 900}) * ms}});
+  if (!life.lease && dice.chance(70)) life.lease = Nanoseconds{dice.among({200, 600, 1'500}) * ms};
+}
+}  // namespace
+
 void draw_life(Dice& dice, Scenario& scenario) {
   const std::vector<Participant>& all = scenario.deployment.participants;
   Life& life = scenario.deployment.life.emplace(drawn_life(dice, all));
+  if (traits_of(scenario.dds).has_server) draw_server(dice, scenario.deployment.size(), life);
   if (scenario.dds.amendments) draw_endpoints(dice, all, life);
   if (!traits_of(scenario.dds).has_living_composition) return;
   for (Participant& one : scenario.deployment.participants) {

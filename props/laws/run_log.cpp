@@ -190,8 +190,8 @@ void RunLog::note_numbers(const model::Packet& packet) {
 }
 
 void RunLog::note_relayed(const model::Relayed& relayed) {
-  note((relayed.has_data ? 4U : 0U) + (relayed.is_announcement ? 2U : 0U) +
-       (relayed.has_heartbeat ? 1U : 0U));
+  note((relayed.is_goodbye ? 8U : 0U) + (relayed.has_data ? 4U : 0U) +
+       (relayed.is_announcement ? 2U : 0U) + (relayed.has_heartbeat ? 1U : 0U));
   note_participant(relayed.participant);
   note(static_cast<std::uint64_t>(relayed.stream));
   note(relayed.descriptor);

@@ -212,27 +212,32 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
       constexpr bool shown = P::owner != comp::owner::control_relation &&
                              std::is_same_v<typename P::Machine, fsm::SingleShot>;
       if (!std::is_same_v<P, comp::Reader> && !(shown && before != after)) return;
-      this->audit_.transition(
-          {.machine = {fsm::name_of<typename P::Machine>(), Columns::kind(P::owner), n},
-           .event = ReceivedDescriptors::renewed,
-           .before = States::state_names[before],
-           .after = States::state_names[after]});
+      this->audit_.transition({.machine = {fsm::name_of<typename P::Machine>(),
+                                           Columns::kind(P::owner), Columns::subject(P::owner, n)},
+                               .event = ReceivedDescriptors::renewed,
+                               .before = States::state_names[before],
+                               .after = States::state_names[after]});
     }
   }
 
-  // Timers.
+  // Timers; those of the host below are its own.
   template <class T>
-  void schedule(T, Number n, std::int64_t time) {
+  static constexpr bool keeps_timer = model::detail::is_listed<T>(typename Of::Things{});
+  template <class T>
+  void schedule(T timer, Number n, std::int64_t time) {
+    if constexpr (!keeps_timer<T>) return Base::schedule(timer, n, time);
     const Scheduled* event = this->audit_.expect(Scheduled{
         model::event_kind_of<T>, Columns::subject(T::owner, n), model::Nanoseconds{time}});
     if (event != nullptr) pending_of(model::event_kind_of<T>, n).push_back(event->insertion);
   }
   template <class T>
-  [[nodiscard]] std::int64_t pending(T, Number n) {
+  [[nodiscard]] std::int64_t pending(T timer, Number n) {
+    if constexpr (!keeps_timer<T>) return Base::pending(timer, n);
     return std::ssize(pending_of(model::event_kind_of<T>, n));
   }
   template <class T>
-  void cancel(T, Number n) {
+  void cancel(T timer, Number n) {
+    if constexpr (!keeps_timer<T>) return Base::cancel(timer, n);
     pending_of(model::event_kind_of<T>, n).clear();
   }
   // Layers lie on one another, so none of their virtual functions says `override`.
@@ -256,8 +261,10 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
     return fsm::Stepper<typename P::Machine>::initial;
   }
   /// Whether the event is one that is pending; it is not any more.
-  bool is_due(model::EventKind kind, Number owner, const model::Event& event) {
-    return std::erase(pending_of(kind, owner), event.insertion()) > 0;
+  template <class T>
+  bool takes(T timer, Number owner, const model::Event& event) {
+    if constexpr (!keeps_timer<T>) return Base::takes(timer, owner, event);
+    return std::erase(pending_of(event.kind, owner), event.insertion()) > 0;
   }
   [[nodiscard]] std::deque<Entry>& queue_of(Number participant) { return queues_[participant]; }
   [[nodiscard]] bool has_bases() const { return has_bases_; }

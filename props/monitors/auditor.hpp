@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "fsm/composition/fastdds_life.hpp"
 #include "model/engine/living_host.hpp"
 #include "model/life.hpp"
 #include "props/monitors/audited_topics.hpp"
@@ -42,7 +43,7 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
       : Steps{run, audit},
         life_{run.scenario.deployment.life.value_or(model::Life{})},
         dying_{those_who_die(run.scenario)} {
-    for (Number n = 0; has_life_ && n < run.topology.relation_count(); ++n) {
+    for (Number n = 0; has_life_ && !has_server_ && n < run.topology.relation_count(); ++n) {
       const bool left_out = run.topology.pair(n / 2).cross_host && !is_required(n / 2);
       if (left_out) run.missing -= run.topology.descriptor_count(n);
     }
@@ -52,7 +53,7 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
     this->audit_.begin("Before the run");
     for (const model::StaleRelation& stale : life_.stale) open_before(stale.writer, stale.reader);
     Base::started();
-    if constexpr (model::detail::is_listed<comp::Return>(typename Composition::Timers{})) {
+    if constexpr (keeps_lives) {
       for (const model::StaleRelation& stale : life_.stale) this->forget_creations(stale.writer);
       for (const model::Restart& restart : life_.restarts) {
         if (restart.identity == model::Identity::fresh) continue;
@@ -69,7 +70,7 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
     comp::for_each_type(typename Composition::Timers{}, [&]<class T>() {
       if (event.kind != model::event_kind_of<T>) return;
       const Number n = Columns::number(T::owner, event);
-      if (this->is_due(event.kind, n, event)) run<comp::Due<T>>(n);
+      if (this->takes(T{}, n, event)) run<comp::Due<T>>(n);
       if (std::is_same_v<T, comp::Return>) this->take_creations(event.subject);
     });
   }
@@ -100,12 +101,13 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
     const auto waits_for = [&](Number i) { return !is_replaced(life_, i) && !dying_[i]; };
     return ends.cross_host && waits_for(ends.source) && waits_for(ends.destination);
   }
-  /// Where who is gone is forgotten, nobody is to know who dies.
+  /// Where who is gone is forgotten, nobody is to know who dies: of other hosts, or with a server,
+  /// of any.
   using Steps::assign;
   void assign(comp::Recognised known, Number pair, bool is_known) {
     const model::Pair& ends = this->topology().pair(pair);
-    const bool counts = model::detail::is_listed<comp::Return>(typename Composition::Timers{});
-    if (counts && ends.cross_host && dying_[ends.source] && !dying_[ends.destination]) {
+    if (keeps_lives && (ends.cross_host || has_server_) && dying_[ends.source] &&
+        !dying_[ends.destination]) {
       this->run_.missing += is_known ? 1U : 0U;
       this->run_.missing -= this->value(known, pair) ? 1U : 0U;
     }
@@ -113,9 +115,14 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
   }
   using Steps::answer;
   template <class W>
+  [[nodiscard]] std::int64_t answer(comp::fastdds::AckNackNumber, const W& w) const {
+    return w.packet().number_of_acknack();
+  }
+  template <class W>
   [[nodiscard]] std::int64_t answer(comp::LeaseDuration, const W& w) const {
-    const Number source = this->topology().pair(w.template number<comp::owner::pair>()).source;
-    return lease_of(life_, source).value_or(model::Nanoseconds{}).count();
+    const model::Pair& ends = this->topology().pair(w.template number<comp::owner::pair>());
+    if (!checks_lease(this->run_.scenario, ends.source, ends.destination)) return 0;
+    return lease_of(life_, ends.source).value_or(model::Nanoseconds{}).count();
   }
 
  protected:
@@ -160,7 +167,10 @@ class AuditedRules : public AuditedOpaque<Self, Base, Of> {
   void expect_start(Number i) override {
     this->schedule(comp::Announcement{}, i, this->topology().start(i).count());
   }
+  /// Who comes back is this layer's business.
+  static constexpr bool keeps_lives = model::detail::is_listed<comp::Return>(typename Of::Things{});
   const bool has_life_ = this->run_.scenario.deployment.life.has_value();
+  const bool has_server_ = model::traits_of(this->run_.scenario.dds).has_server;
   const model::Life life_;
   const std::vector<bool> dying_;  // by participant
 

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "fsm/composition/fastdds.hpp"
-#include "fsm/composition/server.hpp"
+#include "fsm/composition/server_life.hpp"
+#include "model/composition_of.hpp"
 #include "model/fastdds/matching.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/fastdds/server_relays.hpp"
@@ -19,7 +20,6 @@ namespace {
 
 namespace server = comp::server;
 namespace relay = model::fastdds::relay;
-using Clients = Auditor<comp::fastdds::FastDds>;
 
 struct ServerColumns : model::fastdds::ServerNumbers {
   template <class T>
@@ -33,22 +33,28 @@ struct ServerColumns : model::fastdds::ServerNumbers {
     }
   }
 };
-struct AuditedServer : Audited<server::FastDdsServer> {
-  using Things = model::Without<model::ThingsOf<server::FastDdsServer>,
-                                model::ThingsOf<comp::fastdds::FastDds>>;
+template <class Server, class OfClients>
+struct AuditedServer : Audited<Server> {
+  using Things = model::Without<model::ThingsOf<Server>, model::ThingsOf<OfClients>>;
   using Columns = ServerColumns;
   using Heard = fsm::TypeList<server::RelayOpen>;
 };
 
-class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedServer>,
-                            public model::fastdds::ServerSteps<ServerAuditor> {
-  using Rules = AuditedRules<ServerAuditor, Clients, AuditedServer>;
-  using Steps = ServerSteps;
+/// `Self` audits runs of `Server`, whose clients exchange descriptors by the rules `OfClients`.
+template <class Self, class Server, class OfClients>
+class ServerAuditorOf
+    : public AuditedRules<Self, Auditor<OfClients>, AuditedServer<Server, OfClients>>,
+      public model::fastdds::ServerSteps<Self> {
+  using Rules = AuditedRules<Self, Auditor<OfClients>, AuditedServer<Server, OfClients>>;
+  using Steps = model::fastdds::ServerSteps<Self>;
+
+ protected:
+  using Clients = Auditor<OfClients>;
 
  public:
-  using Number = Rules::Number;
+  using typename Rules::Number;
 
-  ServerAuditor(model::RunState& run, Audit& audit) : Rules{run, audit}, Steps{run} {}
+  ServerAuditorOf(model::RunState& run, Audit& audit) : Rules{run, audit}, Steps{run} {}
 
   // What starts rules.
   void due(const model::Event& event) override {
@@ -60,21 +66,21 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
     Clients::rescheduled(event, insertion);
   }
   void received(const model::Packet& packet, Number receiver) override {
-    if (!has_started(receiver)) return;
+    if (!this->has_started(receiver)) return;
     if (!Steps::take_in(packet)) Clients::received(packet, receiver);
   }
   /// A reader of the server receives what is new to it.
   void take_descriptors(Number relation, const model::DescriptorSet& received) override {
-    model::DescriptorSet before = planes().missing(relation);
+    model::DescriptorSet before = this->planes().missing(relation);
     Clients::take_descriptors(relation, received);
     bool some = false;
-    const model::Pair& ends = topology().pair(relation / 2);
+    const model::Pair& ends = this->topology().pair(relation / 2);
     before.for_each([&](Number d) {
       if ((received.word(d / 64) >> d % 64 & 1) == 0) return;
-      arrive(ends.source, model::streams[relation % 2], d);
+      this->arrive(ends.source, model::streams[relation % 2], d);
       some = true;
     });
-    if (some) run<comp::Happens<server::Arrives>>(server_id());
+    if (some) this->template run<comp::Happens<server::Arrives>>(this->server_id());
   }
   /// Discovery needs what clients learn.
   [[nodiscard]] bool is_required(Number) const override { return false; }
@@ -82,10 +88,12 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
   // The host of a RunningWorld.
   using Rules::answer;
   using Rules::perform;
+  using Rules::renew;
   using Steps::answer;
   using Steps::changed;
   using Steps::perform;
   using Steps::readers;
+  using Steps::renew;
   template <class P, class W, class... Sayings>
   void emit(P, W& w, const std::tuple<Sayings...>&) {
     constexpr bool says_something = sizeof...(Sayings) > 0;
@@ -97,7 +105,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
     } else {
       const auto relation = w.template number<comp::owner::relation>();
       const bool asks = std::is_same_v<P, server::RelayedAckNack>;
-      model::Relayed relayed = contents(P{}, relation, says_something);
+      model::Relayed relayed = this->contents(P{}, relation, says_something);
       message.kind = asks ? model::PacketKind::relayed_acknack : model::PacketKind::relayed;
       message.initial = asks && says_something;
       message.carries_heartbeat = relayed.has_heartbeat;
@@ -106,42 +114,116 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
       message.stream = of_subscriptions ? model::Stream::sub : model::Stream::pub;
       message.relayed.of = std::make_shared<const model::Relayed>(std::move(relayed));
     }
-    audit_.expect(message);
+    this->audit_.expect(message);
   }
 
   // What steps ask of it.
   using Rules::run;
   template <class Occasion>
   void runs_for_clients(Number relation) {
-    model::RunningWorld<Clients, Occasion::owner> w{*this, relation};
+    model::RunningWorld<Clients, Occasion::owner> w{static_cast<Clients&>(*this), relation};
     w.raise(Occasion{});
   }
   void open_builtin(Number pair) { Clients::open_sides(pair); }
   /// The first time. Discovery needs what is on a topic of which the client has the other side.
   void learn(Number client, const model::Relayed& relayed) {
     if (relayed.participant == client) return;
-    const Number pair = topology().pair_between(relayed.participant, client);
+    const Number pair = this->topology().pair_between(relayed.participant, client);
     if (relayed.is_announcement) {
-      if (value(comp::Recognised{}, pair)) return;
-      assign(comp::Recognised{}, pair, true);
+      if (this->value(comp::Recognised{}, pair)) return;
+      this->assign(comp::Recognised{}, pair, true);
     } else {
-      using HandedOver = comp::fastdds::HandedOver;
       const auto relation = static_cast<Number>(2 * pair + index_of(relayed.stream));
-      if (has(HandedOver{}, relation, relayed.descriptor)) return;
-      assign(HandedOver{}, relation, relayed.descriptor, true);
-      if (model::fastdds::has_other_side(topology(), client, relayed.stream, relayed.descriptor) &&
-          relayed.participant != server_id()) {
-        --run_.missing;
-      }
-      if (run_.ends_now()) return;
+      if (this->has(HandedOver{}, relation, relayed.descriptor)) return;
+      this->assign(HandedOver{}, relation, relayed.descriptor, true);
+      if (counts(pair, relayed.stream, relayed.descriptor)) --this->run_.missing;
+      if (this->run_.ends_now()) return;
     }
     Clients::open_sides(pair);
   }
 
  protected:
+  using HandedOver = comp::fastdds::HandedOver;
+
+  /// Whether discovery needs that the pair's destination learns the descriptor.
+  [[nodiscard]] virtual bool counts(Number pair, model::Stream s, Number d) const {
+    const model::Pair& ends = this->topology().pair(pair);
+    return ends.source != this->server_id() &&
+           model::fastdds::has_other_side(this->topology(), ends.destination, s, d);
+  }
   void expect_start(Number i) override {
-    schedule(server::ClientAnnouncement{}, topology().pair_between(i, server_id()),
-             topology().start(i).count());
+    this->schedule(server::ClientAnnouncement{},
+                   this->topology().pair_between(i, this->server_id()),
+                   this->topology().start(i).count());
+  }
+};
+
+class ServerAuditor final
+    : public ServerAuditorOf<ServerAuditor, server::FastDdsServer, comp::fastdds::FastDds> {
+ public:
+  using ServerAuditorOf::ServerAuditorOf;
+};
+
+class LivingServerAuditor final
+    : public ServerAuditorOf<LivingServerAuditor, server::FastDdsServerLiving,
+                             comp::fastdds::FastDdsLiving> {
+ public:
+  LivingServerAuditor(model::RunState& run, Audit& audit) : ServerAuditorOf{run, audit} {
+    for (Number pair = 0; pair < run.topology.pair_count(); ++pair) {
+      if (waits_for(pair)) continue;
+      const model::Pair& ends = run.topology.pair(pair);
+      run.missing -= run.topology.matching_descriptors(ends.source, ends.destination,
+                                                       run.scenario.dds.descriptors);
+    }
+  }
+  void started() override {
+    ServerAuditorOf::started();
+    schedule(comp::Announcement{}, server_id(), 0);
+  }
+  void received(const model::Packet& packet, Number receiver) override {
+    const model::Pair& ends = topology().pair(packet.pair);
+    const Number sender = packet.to_writer() ? ends.destination : ends.source;
+    const model::Deployment& deployment = run_.scenario.deployment;
+    if (hears(deployment, sender, receiver, packet.emitted, run_.now)) {
+      ServerAuditorOf::received(packet, receiver);
+    }
+  }
+
+  // What steps ask of it.
+  void forget_exchange(Number pair) {
+    model::RunningWorld<Clients, comp::owner::pair>{*this, pair}.call(
+        comp::fastdds::Life::Forget{});
+  }
+  /// A goodbye is heeded, and a descriptor taken, of somebody who is known.
+  void learn(Number client, const model::Relayed& relayed) {
+    if (relayed.participant == client) return;
+    const Number pair = topology().pair_between(relayed.participant, client);
+    const bool is_known = value(comp::Recognised{}, pair);
+    if (relayed.is_goodbye) {
+      if (is_known) forget(pair);
+    } else if (is_known || relayed.is_announcement) {
+      ServerAuditorOf::learn(client, relayed);
+    }
+  }
+
+ private:
+  [[nodiscard]] bool waits_for(Number pair) const {
+    const model::Pair& ends = topology().pair(pair);
+    const auto stays = [&](Number i) { return !is_replaced(life_, i) && !dying_[i]; };
+    return stays(ends.source) && stays(ends.destination);
+  }
+  [[nodiscard]] bool counts(Number pair, model::Stream s, Number d) const override {
+    return waits_for(pair) && ServerAuditorOf::counts(pair, s, d);
+  }
+  void forget(Number pair) {
+    const Number source = topology().pair(pair).source;
+    for (const model::Stream s : model::streams) {
+      const auto relation = static_cast<Number>(2 * pair + index_of(s));
+      for (Number d = 0; d < topology().descriptor_count(source, s); ++d) {
+        if (has(HandedOver{}, relation, d) && counts(pair, s, d)) ++run_.missing;
+      }
+    }
+    forget_exchange(pair);
   }
 };
 
@@ -149,6 +231,7 @@ class ServerAuditor final : public AuditedRules<ServerAuditor, Clients, AuditedS
 
 std::unique_ptr<Follower> auditor_of(model::Of<server::FastDdsServer>, model::RunState& run,
                                      Audit& audit) {
+  if (is_living(run.scenario)) return std::make_unique<LivingServerAuditor>(run, audit);
   return std::make_unique<ServerAuditor>(run, audit);
 }
 

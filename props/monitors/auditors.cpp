@@ -23,8 +23,8 @@ std::unique_ptr<Follower> auditor_of(model::Of<comp::amended::Amended>, model::R
 }  // namespace
 
 std::unique_ptr<Follower> make_auditor(model::RunState& run, Audit& audit) {
-  const bool has_thread = model::traits_of(run.scenario.dds).has_event_thread;
-  if (is_living(run.scenario) && !has_thread) {
+  const model::ImplementationTraits& traits = model::traits_of(run.scenario.dds);
+  if (is_living(run.scenario) && traits.writer == model::Writer::stateful) {
     return std::make_unique<Auditor<comp::fastdds::FastDdsLiving>>(run, audit);
   }
   return model::visit_composition(

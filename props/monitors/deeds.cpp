@@ -94,7 +94,8 @@ std::string relayed_text(const model::Relayed& relayed, bool asks) {
   std::vector<std::string> parts;
   if (asks) parts.push_back(fmt::format("base {}", relayed.base));
   if (relayed.has_data && relayed.is_announcement) {
-    parts.push_back(fmt::format("the announcement of participant {} as number {}",
+    parts.push_back(fmt::format("the {} of participant {} as number {}",
+                                relayed.is_goodbye ? "goodbye" : "announcement",
                                 relayed.participant, relayed.number));
   } else if (relayed.has_data) {
     parts.push_back(fmt::format("{} descriptor {} of participant {} as number {}",

@@ -294,6 +294,37 @@ TEST(Followed, MistakesInLivesOfFastDdsAreNoticed) {
                  [&](const std::string& rule) { return of_lives.contains(rule); });
 }
 
+/// The same with a server, which may be lost and come back, too.
+Scenario living_with_server(std::uint64_t seed) {
+  Scenario scenario = with_server(seed);
+  Dice dice{seed};
+  draw_life(dice, scenario);
+  scenario.run_until = model::RunUntil::time_limit;
+  scenario.time_limit = model::Nanoseconds{6'000'000'000};
+  return scenario;
+}
+
+TEST(Followed, LivesWithAServerAreWhatTheRulesSay) {
+  model::RunOptions options;
+  options.max_events = 20'000;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const auto monitor = follow(living_with_server(seed), options);
+    if (!monitor->violation()) continue;
+    ADD_FAILURE() << "seed " << seed << ", event " << monitor->violation()->event << ": "
+                  << monitor->violation()->reason;
+  }
+}
+
+TEST(Followed, MistakesInLivesWithAServerAreNoticed) {
+  std::vector<Scenario> scenarios;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) scenarios.push_back(living_with_server(seed));
+  const std::set<std::string> of_lives{"HearFrom",     "LeaseIsChecked", "CloseClient",
+                                       "LoseClient",   "LoseServer",     "ServerAnnounces",
+                                       "ServerReturns"};
+  expect_noticed("fastdds-server-living", scenarios, 70,
+                 [&](const std::string& rule) { return of_lives.contains(rule); });
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Followed, testing::ValuesIn(model::implementations),
                          [](const auto& tested) {
                            return std::string{model::traits_of(tested.param).name};

@@ -71,6 +71,8 @@ inline constexpr std::array<std::string_view, 2> enum_names<Relay>{"repeat", "on
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<ServerKnown>{"guid", "locator"};
 template <>
+inline constexpr std::array<std::string_view, 2> enum_names<Rejoin>{"dropped", "known"};
+template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Whether>{"false", "true"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<MatchOrder>{"endpoints_first",
@@ -428,6 +430,12 @@ constexpr void visit_knobs(auto& visit, Is<ServerProfile> auto& server, Implemen
              "what a client knows of the server before it hears of it: also who it is, or only "
              "where; guid if absent",
              with_server(kind));
+  visit.knob(
+      "rejoin", server.rejoin, UsualChoiceType<Rejoin>{{}, Rejoin::dropped},
+      "whether the server relays a client that it hears of again while it still tells others "
+      "that the client is gone (deployment.life): it is dropped, or known as anybody new; "
+      "dropped if absent",
+      with_server(kind));
 }
 
 /// What later versions of Fast DDS have; keys of the profile itself.

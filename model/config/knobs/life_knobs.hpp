@@ -116,11 +116,15 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
              "participants that say that they go, and do not come back", Presence::optional);
 }
 
+/// How many there are that something may happen to: a Discovery Server is one, too.
+[[nodiscard]] inline std::uint32_t everybody(const Scenario& scenario) {
+  return scenario.deployment.size() + (traits_of(scenario.dds).has_server ? 1 : 0);
+}
 /// Whether both are participants of different hosts.
-[[nodiscard]] inline bool is_cross_host(const Deployment& deployment, std::uint32_t i,
+[[nodiscard]] inline bool is_cross_host(const Scenario& scenario, std::uint32_t i,
                                         std::uint32_t j) {
-  const auto& all = deployment.participants;
-  return i < all.size() && j < all.size() && all[i].host != all[j].host;
+  const std::uint32_t all = everybody(scenario);
+  return i < all && j < all && host_of(scenario.deployment, i) != host_of(scenario.deployment, j);
 }
 /// Whether the rules know of a life. Those of Fast DDS do as long as no event waits for a thread or
 /// a full queue.
@@ -132,7 +136,7 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
 [[nodiscard]] inline std::string needed_for_lives(const Scenario& scenario) {
   if (!traits_of(scenario.dds).knows_lives) {
     return "or a DDS profile whose rules know it: one with amendments, or implementation: fastdds "
-           "with discovery: simple or static, or implementation: cyclone";
+           "or cyclone";
   }
   std::string needed;
   if (scenario.wireless.sender != Sender::backlog) {
@@ -197,6 +201,21 @@ void visit_goodbyes(auto& visit, const Scenario& scenario, bool says_goodbye) {
              "deployment.life.restarts", "with a goodbye only when all endpoints are created");
 }
 
+/// What cannot be with a Discovery Server.
+void visit_served(auto& visit, const Scenario& scenario) {
+  if (!traits_of(scenario.dds).has_server) return;
+  const Life& life = *scenario.deployment.life;
+  visit.rule(life.stale.empty(), "deployment.life.stale",
+             "nothing; with a Discovery Server participants begin knowing nobody");
+  const auto is_usual = [&](const Restart& restart) {
+    const bool of_client = restart.participant < scenario.deployment.size();
+    return restart.identity == (of_client ? Identity::fresh : Identity::same);
+  };
+  visit.rule(std::ranges::all_of(life.restarts, is_usual), "deployment.life.restarts",
+             "identity: new of clients, which are somebody new then, and identity: same of a "
+             "Discovery Server, which is known by its name or its id");
+}
+
 void visit_life(auto& visit, Is<Scenario> auto& scenario) {
   const Deployment& deployment = scenario.deployment;
   const bool may_fail = scenario.vary && (scenario.vary->outages || scenario.vary->restarts);
@@ -210,25 +229,27 @@ void visit_life(auto& visit, Is<Scenario> auto& scenario) {
   visit.rule(knows_lives(scenario), "deployment.life",
              fmt::format("nothing of the kind, {}", needed_for_lives(scenario)));
   const auto is_stale = [&](const StaleRelation& stale) {
-    return is_cross_host(deployment, stale.writer, stale.reader);
+    return is_cross_host(scenario, stale.writer, stale.reader);
   };
   const auto is_outage = [&](const Outage& outage) {
     const bool is_between_two =
         outage.from_reach == Reach::participant && outage.to_reach == Reach::participant;
-    return !is_between_two || is_cross_host(deployment, outage.from, outage.to);
+    return !is_between_two || is_cross_host(scenario, outage.from, outage.to);
   };
-  const auto is_mute = [&](const Mute& mute) { return mute.participant < deployment.size(); };
+  const std::uint32_t all = everybody(scenario);
+  const auto is_mute = [&](const Mute& mute) { return mute.participant < all; };
   visit.rule(std::ranges::all_of(life.stale, is_stale), "deployment.life.stale",
              "participants of different hosts");
   visit.rule(std::ranges::all_of(life.outages, is_outage), "deployment.life.outages",
              "participants of different hosts");
   visit.rule(std::ranges::all_of(life.mute, is_mute), "deployment.life.mute",
              "participants of the deployment");
-  const auto is_there = [&](const auto& entry) { return entry.participant < deployment.size(); };
+  const auto is_there = [&](const auto& entry) { return entry.participant < all; };
   visit.rule(std::ranges::all_of(life.restarts, is_there), "deployment.life.restarts",
              "participants of the deployment");
   visit.rule(std::ranges::all_of(life.leases, is_there), "deployment.life.leases",
              "participants of the deployment");
+  visit_served(visit, scenario);
   const bool says_goodbye = traits_of(scenario.dds).says_goodbye;
   visit.rule(life.endpoints.empty() || scenario.dds.amendments.has_value() || says_goodbye,
              "deployment.life.endpoints",

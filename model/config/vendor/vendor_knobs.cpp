@@ -28,6 +28,7 @@ constexpr VendorKnob fastdds_knobs[] = {
     {"pdp_heartbeat_response_delay", "", "constant in the library, PDP.cpp:73-77"},
     {"relay", "", "rule of the library, DiscoveryDataBase::process_dirty_topics"},
     {"server_known", "", "rule of the library, PDPClient::announceParticipantState"},
+    {"rejoin", "", "rule of the library, DiscoveryDataBase::create_participant_from_change_"},
     {"peer_ports", "transport_descriptors/transport_descriptor/maxInitialPeersRange",
      "acts with initial peers only; whoever has no port among them may not be found", 1, 100},
     {"max_participants_per_host", "rtps/builtin/mutation_tries",

@@ -81,6 +81,9 @@ const std::map<std::string, std::string>& empty_contracts() {
       {"OpenReaders", "the rules of the server's readers are another composition's"},
       {"OpenOwnWriter", "the rules of a client's writers are another composition's"},
       {"OpenBuiltinSides", "the rules of control-only relations are another composition's"},
+      {"JoinGoodbyes", "what waits for the routine is no thing of the rules"},
+      {"ForgetRelayed", "what a client has received is no thing of the rules"},
+      {"TakeNew", "what a client has learned is about pairs that the rules do not name"},
       {"TakeRelayed", "what a client has learned is about pairs that the rules do not name"},
   };
   return steps;

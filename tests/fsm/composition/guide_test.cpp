@@ -99,6 +99,7 @@ const std::multimap<std::string, std::string_view> page_of{
     {"museum.md", "paper-amended"},
     {"museum.md", "fastdds-living"},
     {"discovery-server.md", "fastdds-server"},
+    {"discovery-server.md", "fastdds-server-living"},
     {"cyclone-life.md", "cyclone-living"}};
 
 TEST(Guide, RefersToRulesAndEffectsThatExist) {

@@ -15,6 +15,7 @@ constexpr std::size_t parameter_header = 4;
 constexpr std::uint8_t little_endian = 0x01;
 constexpr std::uint8_t final_flag = 0x02;
 constexpr std::uint8_t data_flag = 0x04;
+constexpr std::uint8_t key_flag = 0x08;
 
 ByteWriter& add(ByteWriter& body, const SequenceNumberSet& numbers) {
   body.sequence_number(static_cast<std::uint64_t>(numbers.base)).u32(numbers.num_bits);
@@ -85,6 +86,16 @@ void MessageWriter::info_ts(std::int64_t time_ns) {
 
 void MessageWriter::data(EntityId reader, EntityId writer, std::uint64_t sequence_number,
                          const ParameterWriter& parameters, std::size_t size) {
+  sample(reader, writer, sequence_number, parameters, size, data_flag);
+}
+void MessageWriter::disposal(EntityId reader, EntityId writer, std::uint64_t sequence_number,
+                             const ParameterWriter& key, std::size_t size) {
+  sample(reader, writer, sequence_number, key, size, key_flag);
+}
+
+void MessageWriter::sample(EntityId reader, EntityId writer, std::uint64_t sequence_number,
+                           const ParameterWriter& parameters, std::size_t size,
+                           std::uint8_t flags) {
   constexpr std::uint16_t to_inline_qos = 16;
   ByteWriter body;
   body.u16(0).u16(to_inline_qos).entity(reader).entity(writer).sequence_number(sequence_number);
@@ -96,7 +107,7 @@ void MessageWriter::data(EntityId reader, EntityId writer, std::uint64_t sequenc
     body.u16(id_of(ParameterId::pad)).u16(length).zeros(length);
   }
   body.u16(id_of(ParameterId::sentinel)).u16(0);
-  submessage(SubmessageId::data, data_flag, body);
+  submessage(SubmessageId::data, flags, body);
 }
 
 void MessageWriter::heartbeat(EntityId reader, EntityId writer, std::uint64_t last,

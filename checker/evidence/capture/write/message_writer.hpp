@@ -60,6 +60,9 @@ class MessageWriter {
   /// of four; padded within its parameter list (PID_PAD).
   void data(EntityId reader, EntityId writer, std::uint64_t sequence_number,
             const ParameterWriter& parameters, std::size_t size);
+  /// The same with a key alone: what it is about is gone.
+  void disposal(EntityId reader, EntityId writer, std::uint64_t sequence_number,
+                const ParameterWriter& key, std::size_t size);
   /// Not final: the reader has to answer.
   void heartbeat(EntityId reader, EntityId writer, std::uint64_t last, std::uint32_t count,
                  std::uint64_t first = 1);
@@ -76,6 +79,8 @@ class MessageWriter {
   [[nodiscard]] const Buffer& buffer() const { return message_; }
 
  private:
+  void sample(EntityId reader, EntityId writer, std::uint64_t sequence_number,
+              const ParameterWriter& parameters, std::size_t size, std::uint8_t flags);
   void submessage(SubmessageId id, std::uint8_t flags, const ByteWriter& body);
   void set_length(std::size_t length);
 

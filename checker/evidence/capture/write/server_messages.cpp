@@ -84,6 +84,12 @@ void ServerMessages::add_data(MessageWriter& out, const Relayed& relayed, Entity
   const Identity& whose = identities_[relayed.participant];
   const auto number = static_cast<std::uint64_t>(relayed.number);
   const std::size_t size = end > out.size() ? end - out.size() : 0;
+  if (relayed.is_goodbye) {
+    ParameterWriter key;
+    key.guid(id_of(ParameterId::participant_guid), {whose.prefix, capture::entity::participant});
+    out.disposal(reader, writer, number, key, size);
+    return;
+  }
   if (relayed.is_announcement) {
     out.data(reader, writer, number, participant_parameters(whose, vendor_), size);
     return;
