@@ -220,9 +220,10 @@ class AuditedState : public model::Stored<Self, Base, typename Of::Things, typen
     }
   }
 
-  // Timers; those of the host below are its own.
+  // Timers; those of a host of other rules below are its own.
   template <class T>
-  static constexpr bool keeps_timer = model::detail::is_listed<T>(typename Of::Things{});
+  static constexpr bool keeps_timer = std::is_same_v<Base, Follower> ||
+                                      model::detail::is_listed<T>(typename Of::Things{});
   template <class T>
   void schedule(T timer, Number n, std::int64_t time) {
     if constexpr (!keeps_timer<T>) return Base::schedule(timer, n, time);
