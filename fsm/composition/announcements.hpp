@@ -44,17 +44,23 @@ struct CopyToKnown : Opaque {
   }
 };
 
+/// What the timer of announcements looks at when one is due.
+template <class W>
+AnnouncerIo::Input<typename W::D> announcer_input(W& w) {
+  return {.now = w(Now{}),
+          .number = w(AnnouncementsSent{}),
+          .startup = w(StartupAnnouncements{}),
+          .startup_period = w(StartupPeriod{}),
+          .period = w(AnnouncementPeriod{})};
+}
+
 template <class C>
 struct AnnouncementRules {
   struct AnnouncementIsDue : Rule<Due<Announcement>> {
     template <class W>
     static void run(W& w) {
-      const auto timer = w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>,
-                                {.now = w(Now{}),
-                                 .number = w(AnnouncementsSent{}),
-                                 .startup = w(StartupAnnouncements{}),
-                                 .startup_period = w(StartupPeriod{}),
-                                 .period = w(AnnouncementPeriod{})});
+      const auto timer =
+          w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>, announcer_input(w));
       w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
       w.when(timer.announce, [&] {
         announce(w, [&] { w.perform(CopyToKnown{}); });

@@ -36,12 +36,8 @@ struct ClientAnnounces : Rule<Due<ClientAnnouncement>> {
   template <class W>
   static void run(W& w) {
     const auto first = !(w(AnnouncementsSent{}) > 0);
-    const auto timer = w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>,
-                              {.now = w(Now{}),
-                               .number = w(AnnouncementsSent{}),
-                               .startup = w(StartupAnnouncements{}),
-                               .startup_period = w(StartupPeriod{}),
-                               .period = w(AnnouncementPeriod{})});
+    const auto timer =
+        w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>, announcer_input(w));
     w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
     w.when(timer.announce, [&] {
       w.when(first, [&] { begin(w); });

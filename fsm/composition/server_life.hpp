@@ -147,12 +147,8 @@ struct HeardRelayedAckNack : Rule<Received<RelayedAckNack>> {
 struct ServerAnnounces : Rule<Due<Announcement>> {
   template <class W>
   static void run(W& w) {
-    const auto timer = w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>,
-                              {.now = w(Now{}),
-                               .number = w(AnnouncementsSent{}),
-                               .startup = w(StartupAnnouncements{}),
-                               .startup_period = w(StartupPeriod{}),
-                               .period = w(AnnouncementPeriod{})});
+    const auto timer =
+        w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>, announcer_input(w));
     w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
     w.when(timer.announce, [&] {
       w.for_known_peers([](auto& peer) {

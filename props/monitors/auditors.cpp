@@ -24,7 +24,7 @@ std::unique_ptr<Follower> auditor_of(model::Of<comp::amended::Amended>, model::R
 
 std::unique_ptr<Follower> make_auditor(model::RunState& run, Audit& audit) {
   const model::ImplementationTraits& traits = model::traits_of(run.scenario.dds);
-  if (is_living(run.scenario) && traits.writer == model::Writer::stateful) {
+  if (is_living(run.scenario) && !traits.has_event_thread && !traits.has_server) {
     return std::make_unique<Auditor<comp::fastdds::FastDdsLiving>>(run, audit);
   }
   return model::visit_composition(
