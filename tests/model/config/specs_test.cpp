@@ -156,11 +156,14 @@ TEST(Specs, since_3_0_clients_know_a_server_by_its_locator) {
     expected.discovery = discovery;
     expected.server.relay = Relay::once;
     expected.server.known = ServerKnown::locator;
+    expected.server.rejoin = Rejoin::known;
     return expected;
   };
   EXPECT_EQ(dds("fastdds-server-3.2"), with_server("3.2", Discovery::server));
   EXPECT_EQ(dds("fastdds-server-3.6"), with_server("3.6", Discovery::super_client));
   EXPECT_EQ(dds("fastdds-server-2.14.5").server.known, ServerKnown::guid);
+  EXPECT_EQ(dds("fastdds-server-2.14.5").server.rejoin, Rejoin::known);
+  EXPECT_EQ(dds("fastdds-server-2.6.11").server.rejoin, Rejoin::dropped);
 }
 
 TEST(Specs, cyclone_dds_has_the_values_of_its_source) {

@@ -86,7 +86,7 @@ void ServerMessages::add_data(MessageWriter& out, const Relayed& relayed, Entity
   const std::size_t size = end > out.size() ? end - out.size() : 0;
   if (relayed.is_goodbye) {
     ParameterWriter key;
-    key.guid(id_of(ParameterId::participant_guid), {whose.prefix, capture::entity::participant});
+    key.guid(id_of(ParameterId::participant_guid), {whose.prefix, entity::participant});
     out.disposal(reader, writer, number, key, size);
     return;
   }
