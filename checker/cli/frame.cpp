@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
+#include <sstream>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
@@ -125,7 +126,7 @@ namespace {
 /// As specs/schema/output has it; whatever else was given is not looked at.
 [[noreturn]] void show_schema(const Verb& verb) {
   const std::string title = "What stormproof " + verb.name + " --format json prints";
-  fmt::print("{}", report::dumped(report::schema_of(title, verb.schemas)));
+  print(report::dumped(report::schema_of(title, verb.schemas)));
   throw CLI::Success{};
 }
 
@@ -136,6 +137,7 @@ struct Frame::Command {
   Verb verb;
   const CLI::App* parsed = nullptr;
   std::function<Outcome(Session&)> run;
+  Process process = Process::own;
   Declared declared{};
   Format format = Format::text;
   std::vector<std::string> report_arguments{};
@@ -274,14 +276,15 @@ int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
 int Frame::Command::execute() {
   const auto limit = memory_limit(max_memory);
   if (!limit) return complain(limit.error());
-  limit_memory(*limit);
+  process == Process::own ? limit_memory(*limit) : watch_memory(*limit);
   const auto seconds = seconds_of(time);
   if (!seconds) return complain(seconds.error());
-  const InterruptGuard guard{*seconds};
+  const InterruptGuard guard{*seconds, process};
   if (const auto error = open_files()) return complain(*error);
   const std::vector<Given> given = given_to(*parsed, declared.not_repeated);
   Outcome outcome = [&] {
-    Session session{given, progress.value_or(isatty(STDERR_FILENO) != 0)};
+    const bool at_terminal = process == Process::own && isatty(STDERR_FILENO) != 0;
+    Session session{given, progress.value_or(at_terminal)};
     return run(session);
   }();
   if (const auto* complaint = std::get_if<Complaint>(&outcome)) return complain(complaint->message);
@@ -308,6 +311,7 @@ class NarrowFormatter : public CLI::Formatter {
 }  // namespace
 
 struct Frame::Parser {
+  Process process = Process::own;
   CLI::App app{"stormproof: will these ROS 2 / DDS participants discover each other in time?"};
   std::deque<Command> commands;
   Command* chosen = nullptr;
@@ -321,7 +325,8 @@ static std::string version_text() {
       fmt::join(model::config::SpecPath::standard().names(model::config::SpecKind::dds), ", "));
 }
 
-Frame::Frame() : parser_{std::make_unique<Parser>()} {
+Frame::Frame(Process process) : parser_{std::make_unique<Parser>()} {
+  parser_->process = process;
   parser_->app.name("stormproof");
   parser_->app.formatter(std::make_shared<NarrowFormatter>());
   parser_->app.set_version_flag("--version", version_text);
@@ -348,7 +353,7 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
               "\nAlso 2 if something could not be written, 3 if it was stopped: "
               "Ctrl-C, --time, --max-memory." +
               (examples.empty() ? "" : "\n\n" + examples));
-  parser_->commands.push_back(Command{std::move(verb), app, std::move(work)});
+  parser_->commands.push_back(Command{std::move(verb), app, std::move(work), parser_->process});
   Command& command = parser_->commands.back();
   Options options{*app, command.declared};
   declare(options);
@@ -359,11 +364,12 @@ void Frame::add(Verb verb, const std::function<void(Options&)>& declare,
   app->callback([this, &command] { parser_->chosen = &command; });
 }
 
-int Frame::run(int argc, char** argv) {
+int Frame::run(int argc, char** argv) { return run({argv + std::min(argc, 1), argv + argc}); }
+
+int Frame::run(std::vector<std::string> words) {
   CLI::App& app = parser_->app;
-  std::vector<std::string> words{argv + std::min(argc, 1), argv + argc};
   if (words.empty()) {
-    fmt::print("{}", front_page());
+    print(front_page());
     return established;
   }
   if (const auto complaint = refuse(words)) return complain(complaint->message);
@@ -371,7 +377,10 @@ int Frame::run(int argc, char** argv) {
   try {
     app.parse(words);
   } catch (const CLI::Success& asked) {  // for help or the version
-    return app.exit(asked) == 0 ? established : bad_input;
+    std::ostringstream said;
+    const int code = app.exit(asked, said, said);
+    print(said.str());
+    return code == 0 ? established : bad_input;
   } catch (const CLI::ParseError& error) {
     return complain(said_of(app, error));
   }

@@ -24,9 +24,9 @@ namespace stormproof::cli {
 
 /// The formats that a command offers.
 enum class Formats : std::uint8_t {
-  none,     ///< it makes no answer
-  pages,    ///< text, JSON, Markdown and HTML
-  tables,   ///< these and CSV
+  none,      ///< it makes no answer
+  pages,     ///< text, JSON, Markdown and HTML
+  tables,    ///< these and CSV
   findings  ///< as `pages`, JUnit and SARIF
 };
 
@@ -43,7 +43,7 @@ struct Verb {
 
 class Frame {
  public:
-  Frame();
+  explicit Frame(Process process = Process::own);
   ~Frame();
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
@@ -67,6 +67,8 @@ class Frame {
 
   /// Parses, runs, shows; returns the exit code. Without any word it says what the program is for.
   [[nodiscard]] int run(int argc, char** argv);
+  /// The same with the words behind the program.
+  [[nodiscard]] int run(std::vector<std::string> words);
 
   /// Why these words name no command; of the program itself, if there are none.
   [[nodiscard]] std::optional<Complaint> refuse(const std::vector<std::string>& words) const;

@@ -22,7 +22,7 @@ void declare_help(Frame& frame) {
       },
       [words, &frame](Session& /*session*/) -> Outcome {
         if (auto complaint = frame.refuse(*words)) return *std::move(complaint);
-        fmt::print("{}", frame.help_of(*words));
+        print(frame.help_of(*words));
         return established;
       });
   frame.group("completion", "Print what completes commands in a shell: bash, zsh, fish");

@@ -1,8 +1,7 @@
 // `stormproof list [KIND]`: which names there are.
-#include <fmt/core.h>
-
 #include "checker/cli/commands.hpp"
 #include "checker/cli/frame.hpp"
+#include "checker/cli/streams.hpp"
 #include "checker/presentation/text/command_line.hpp"
 #include "checker/verification/listing/listing.hpp"
 
@@ -25,7 +24,7 @@ Outcome run(ListArguments& arguments, Session& /*session*/) {
   }
   if (arguments.names) {
     for (const listing::List& list : lists) {
-      for (const listing::Entry& entry : list.entries) fmt::print("{}\n", entry.name);
+      for (const listing::Entry& entry : list.entries) print(entry.name + "\n");
     }
     return established;
   }

@@ -125,8 +125,10 @@ model::config::Result<Bytes, std::string> memory_limit(const std::string& text) 
                      text);
 }
 
+void watch_memory(Bytes bytes) { limit_bytes = bytes; }
+
 void limit_memory(Bytes bytes) {
-  limit_bytes = bytes;
+  watch_memory(bytes);
   const std::string words = "stormproof: " + needs_more_memory() + "\n";
   std::copy_n(words.begin(), std::min(words.size(), last_words.size() - 1), last_words.begin());
   std::set_terminate(end_process);

@@ -18,6 +18,8 @@ namespace stormproof::cli {
 
 /// Sets the limit, in bytes, for the whole process. Once, before threads are started.
 void limit_memory(std::uint64_t bytes);
+/// Sets the first line of defence alone: in a process that others share, the second is not ours.
+void watch_memory(std::uint64_t bytes);
 
 /// Whether the process is so close to its limit that it has to stop.
 [[nodiscard]] bool memory_runs_short();

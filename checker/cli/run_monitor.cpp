@@ -66,16 +66,18 @@ sigset_t watched_signals() {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard(std::optional<double> seconds) {
+InterruptGuard::InterruptGuard(std::optional<double> seconds, Process process) {
   stop = Stop::no;
   deadline.reset();
   if (seconds) {
     const std::chrono::duration<double> allowed{*seconds};
     deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(allowed);
   }
-  const sigset_t set = watched_signals();
-  pthread_sigmask(SIG_BLOCK, &set, &before_);
-  signals_ = signalfd(-1, &set, SFD_CLOEXEC);
+  if (process == Process::own) {
+    const sigset_t set = watched_signals();
+    pthread_sigmask(SIG_BLOCK, &set, &before_);
+    signals_ = signalfd(-1, &set, SFD_CLOEXEC);
+  }
   end_ = eventfd(0, EFD_CLOEXEC);
   watch_ = std::thread{[this] { watch(); }};
 }
@@ -84,8 +86,9 @@ InterruptGuard::~InterruptGuard() {
   const std::uint64_t one = 1;
   (void)!write(end_, &one, sizeof one);
   watch_.join();
-  close(signals_);
   close(end_);
+  if (signals_ < 0) return;
+  close(signals_);
   pthread_sigmask(SIG_SETMASK, &before_, nullptr);
 }
 
@@ -103,6 +106,8 @@ void InterruptGuard::watch() const {
     stop = Stop::asked;
   }
 }
+
+void InterruptGuard::interrupt() { stop = Stop::asked; }
 
 bool InterruptGuard::interrupted() { return stop != Stop::no; }
 

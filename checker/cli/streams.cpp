@@ -1,11 +1,12 @@
 // The C streams: they remember that a write failed, and the descriptors below them.
 #include "checker/cli/streams.hpp"
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
+#include <mutex>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -13,6 +14,9 @@
 namespace stormproof::cli {
 
 namespace {
+
+std::atomic<Diversion*> diversion = nullptr;
+std::mutex saying;  // a progress line may be said by another thread
 
 int output_errno = 0;  // of the first write that failed
 
@@ -32,12 +36,25 @@ void prepare_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+Diversion::Diversion() { diversion = this; }
+
+Diversion::~Diversion() { diversion = nullptr; }
+
 void print(std::string_view text) {
+  if (Diversion* kept = diversion) {
+    kept->printed += text;
+    return;
+  }
   std::fwrite(text.data(), 1, text.size(), stdout);
   note_failure();
 }
 
 void mutter(std::string_view text) {
+  if (Diversion* kept = diversion) {
+    const std::lock_guard lock{saying};
+    kept->said += text;
+    return;
+  }
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
@@ -45,10 +62,9 @@ void mutter(std::string_view text) {
 void say(const std::string& line) { mutter(line + "\n"); }
 
 std::optional<std::string> output_lost() {
-  std::cout.flush();  // the parser's help
   note_failure();
   if (std::fflush(stdout) != 0) note_failure();
-  if (std::ferror(stdout) == 0 && std::cout.good()) return std::nullopt;
+  if (std::ferror(stdout) == 0) return std::nullopt;
   if (output_errno == EPIPE) return "";
   return std::string{"standard output: could not be written completely"} +
          (output_errno == 0 ? std::string{} : std::string{": "} + std::strerror(output_errno));

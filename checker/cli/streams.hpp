@@ -23,6 +23,19 @@ void mutter(std::string_view text);
 /// A line on standard error.
 void say(const std::string& line);
 
+/// While it lives, what would be printed or said is kept here instead: the answer of a command to a
+/// program that this one is a part of. One at a time.
+class Diversion {
+ public:
+  Diversion();
+  ~Diversion();
+  Diversion(const Diversion&) = delete;
+  Diversion& operator=(const Diversion&) = delete;
+
+  std::string printed{};
+  std::string said{};
+};
+
 /// Empties standard output. If something of it was lost, the reason; that is empty if whoever read
 /// it has gone (a pipe to `head`), who need not be told.
 [[nodiscard]] std::optional<std::string> output_lost();

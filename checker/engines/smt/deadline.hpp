@@ -24,6 +24,7 @@ namespace stormproof::smt {
   z3::params parameters{context};
   parameters.set("random_seed", options.seed);
   parameters.set("rlimit", options.budget.z3);
+  parameters.set("ctrl_c", false);  // signals belong to the program, or to whom it is a part of
   return parameters;
 }
 
