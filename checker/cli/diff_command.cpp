@@ -161,7 +161,7 @@ void declare_diff(Frame& frame) {
        "What a change of a DDS profile does: knobs, verdicts, costs, least difference",
        "Exit code: 0 no regression, 1 a regression by the policy, 3 inconclusive or interrupted,\n"
        "2 bad input.",
-       Formats::findings,
+       Formats::review,
        {diff::json_schema}},
       declare, run);
 }

@@ -42,7 +42,8 @@ std::vector<NamedFormat> formats_of(Formats formats) {
                                {"markdown", Format::markdown},
                                {"html", Format::html}};
   if (formats == Formats::tables) all.emplace_back("csv", Format::csv);
-  if (formats == Formats::findings) {
+  if (formats == Formats::review) all.emplace_back("github", Format::github);
+  if (formats == Formats::findings || formats == Formats::review) {
     all.insert(all.end(), {{"junit", Format::junit}, {"sarif", Format::sarif}});
   }
   return all;
@@ -62,7 +63,8 @@ void complete(Answer& answer, const std::string& command) {
       with_head(std::move(answer.json), document.command, document.exit_code, !document.complete);
 }
 
-std::string render(const Answer& answer, Format format, const report::Terminal& terminal) {
+std::string render(const Answer& answer, const Verb& verb, Format format,
+                   const report::Terminal& terminal) {
   if (format == Format::json) return report::dumped(answer.json);
   switch (format) {
     case Format::json:
@@ -71,6 +73,8 @@ std::string render(const Answer& answer, Format format, const report::Terminal& 
       return answer.csv;
     case Format::markdown:
       return to_markdown(answer.document);
+    case Format::github:
+      return to_comment(answer.document, verb.name);
     case Format::html:
       return to_html(answer.document);
     case Format::junit:
@@ -235,7 +239,7 @@ void Frame::Command::write_files(const Answer& answer, Errors& errors) {
   const report::Terminal terminal{.verbose = verbose};
   const auto commit = [&](OutputFile& file, Format in) {
     auto error = file.open_error();
-    if (!error) file.stream() << render(answer, in, terminal);
+    if (!error) file.stream() << render(answer, verb, in, terminal);
     if (!error) error = file.commit();
     if (error) errors.push_back(*error);
   };
@@ -266,7 +270,7 @@ int Frame::Command::show(Answer& answer, const std::vector<Given>& given) {
     answer.document.exit_code = bad_input;
     answer.json["exit_code"] = bad_input;
   }
-  print(render(answer, format, terminal));
+  print(render(answer, verb, format, terminal));
   for (const std::string& note : answer.notes) say(visible(note));
   if (!answer.document.complete) say_why_not(time);
   for (const std::string& error : errors) complain(error);

@@ -27,7 +27,8 @@ enum class Formats : std::uint8_t {
   none,      ///< it makes no answer
   pages,     ///< text, JSON, Markdown and HTML
   tables,    ///< these and CSV
-  findings  ///< as `pages`, JUnit and SARIF
+  findings,  ///< as `pages`, JUnit and SARIF
+  review     ///< as `findings`, and a comment on a pull request
 };
 
 struct Verb {

@@ -59,6 +59,12 @@ class Examples : public testing::Test {
     write(home_ / "repository/.stormproof/stormproof",
           "#!/bin/sh\nexec '" STORMPROOF_PROGRAM "' \"$@\"\n");
     fs::permissions(home_ / "repository/.stormproof/stormproof", fs::perms::owner_all);
+    // GitHub's own command: keeps what it was asked for; there is a comment if a file says so.
+    write(home_ / "repository/.stormproof/gh",
+          "#!/bin/sh\necho \"$*\" >> '" + (home_ / "asked").string() +
+              "'\ncase $* in *--jq*) cat '" + (home_ / "comments").string() + "' ;; esac\n");
+    fs::permissions(home_ / "repository/.stormproof/gh", fs::perms::owner_all);
+    write(home_ / "comments", "");
     ASSERT_EQ(shell("git init -q . && echo .stormproof > .git/info/exclude && git add . && git -c "
                     "user.name=a -c user.email=a@b commit -qm base && git update-ref "
                     "refs/remotes/origin/main HEAD"),
@@ -124,17 +130,28 @@ class Examples : public testing::Test {
 
 TEST_F(Examples, TheWorkflowPassesAChangeThatDoesNotMatter) {
   write(file("dds/robots.xml"), profile("<name>another name</name>"));
-  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 0, 0, 0})) << output();
+  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 0, 0, 0, 0})) << output();
   for (const char* name : {"comparison.md", "comparison.html", "comparison.sarif"}) {
     EXPECT_GT(fs::file_size(file("discovery") / name), 0U) << name;
   }
   EXPECT_NE(content(home_ / "summary").find("NO REGRESSION"), std::string::npos)
       << content(home_ / "summary");
+  EXPECT_EQ(content(file("discovery/comment.md")).find("<!-- stormproof diff -->\n### "), 0U);
+  EXPECT_NE(content(home_ / "asked").find("pr comment"), std::string::npos);
+}
+
+TEST_F(Examples, TheWorkflowRenewsItsComment) {
+  write(home_ / "comments", "4711\n");
+  run_workflow();
+  const std::string asked = content(home_ / "asked");
+  EXPECT_NE(asked.find("--method PATCH"), std::string::npos) << asked;
+  EXPECT_NE(asked.find("comments/4711"), std::string::npos) << asked;
+  EXPECT_EQ(asked.find("pr comment"), std::string::npos) << asked;
 }
 
 TEST_F(Examples, TheWorkflowStopsARegressionAndStillShowsIt) {
   write(file("dds/robots.xml"), harmful);
-  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 0, 1, 0})) << output();
+  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 0, 1, 0, 0})) << output();
   EXPECT_NE(content(home_ / "summary").find("REGRESSION"), std::string::npos);
   const std::string sarif = content(file("discovery/comparison.sarif"));
   EXPECT_NE(sarif.find("dds/robots.xml"), std::string::npos);
@@ -143,7 +160,8 @@ TEST_F(Examples, TheWorkflowStopsARegressionAndStillShowsIt) {
 
 TEST_F(Examples, TheWorkflowStopsAtASettingThatDoesNothing) {
   write(file("dds/robots.xml"), useless);
-  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 1, 0})) << output();
+  EXPECT_EQ(run_workflow(), (std::vector<int>{0, 1, 0, 0})) << output();
+  EXPECT_FALSE(fs::exists(home_ / "asked"));
 }
 
 TEST_F(Examples, TheHooksPassAndStop) {

@@ -24,7 +24,7 @@ using report::Table;
 
 using Order = std::vector<const Configuration*>;
 
-constexpr std::size_t rows_shown = 16;
+constexpr std::size_t longest_bar = 24;  // of a chart beside other columns
 constexpr auto to_right = Column::Align::right;
 
 /// "6, 30": the values alone, as the heading has the keys.
@@ -91,15 +91,8 @@ Table table_of(const Order& order, std::size_t from, std::size_t to, const Polic
 }
 
 void add_rows(Blocks& blocks, const DiffReport& report) {
-  const std::vector<Configuration>& all = report.costs.configurations;
-  Order order;
-  for (const Configuration& configuration : all) order.push_back(&configuration);
-  const std::size_t shown = std::min(order.size(), rows_shown);
-  if (shown < order.size()) {
-    std::ranges::stable_sort(order, std::greater{}, [&report](const Configuration* each) {
-      return std::pair{badness(judgment_of(*each, report.policy)), rank_of(*each)};
-    });
-  }
+  const Order order = in_shown_order(report);
+  const std::size_t shown = std::min(order.size(), configurations_shown);
   blocks.emplace_back(table_of(order, 0, shown, report.policy));
   if (shown == order.size()) return;
   blocks.emplace_back(
@@ -213,6 +206,41 @@ std::string about(const DiffReport& report) {
 }
 
 }  // namespace
+
+std::vector<const Configuration*> in_shown_order(const DiffReport& report) {
+  Order order;
+  for (const Configuration& each : report.costs.configurations) order.push_back(&each);
+  if (order.size() > configurations_shown) {
+    std::ranges::stable_sort(order, std::greater{}, [&report](const Configuration* each) {
+      return std::pair{badness(judgment_of(*each, report.policy)), rank_of(*each)};
+    });
+  }
+  return order;
+}
+
+void add_comment_chart(Blocks& blocks, const DiffReport& report) {
+  const Order order = in_shown_order(report);
+  if (order.empty()) return;
+  const std::size_t shown = std::min(order.size(), configurations_shown);
+  double longest = 0;
+  for (std::size_t k = 0; k < shown; ++k) {
+    const MeasuredChange& completion = (*order[k])[Measure::completion];
+    longest = std::max(
+        {longest, completion.before.median.value_or(0), completion.after.median.value_or(0)});
+  }
+  Table table{{{keys_text(*order.front())}, {""}, {"completion", to_right}, {""}}, {}};
+  for (std::size_t k = 0; k < shown; ++k) {
+    const MeasuredChange& completion = (*order[k])[Measure::completion];
+    const auto add = [&](std::string name, const char* side, const std::optional<double>& median) {
+      const double share = median && longest > 0 ? *median / longest : 0;
+      table.rows.push_back({{std::move(name), side, median_text(Measure::completion, median),
+                             report::bar(share, longest_bar)}});
+    };
+    add(values_text(*order[k]), "base", completion.before.median);
+    add("", "candidate", completion.after.median);
+  }
+  blocks.emplace_back(Section{"Completion", "", {std::move(table)}}, Audience::comment);
+}
 
 void add_costs(Blocks& blocks, const DiffReport& report) {
   const CostComparison& costs = report.costs;

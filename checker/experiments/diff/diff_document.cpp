@@ -241,6 +241,7 @@ Document document_of(const DiffReport& report, const Files& files) {
   Facts unasked;
   add_unasked(unasked, report.unasked);
   if (!unasked.rows.empty()) blocks.emplace_back(std::move(unasked));
+  add_comment_chart(blocks, report);
   add_knobs(blocks, report);
   add_verdicts(blocks, report, files);
   add_rollouts(blocks, report);

@@ -53,11 +53,7 @@ std::string relative(double value, double base) {
 std::string bar(double value, double greatest) {
   const bool fills = std::abs(value) == greatest;  // so do infinite ones
   const double share = greatest > 0 ? (fills ? 1 : std::abs(value) / greatest) : 0;
-  auto length = static_cast<std::size_t>(std::lround(share * static_cast<double>(longest_bar)));
-  if (value != 0) length = std::max<std::size_t>(length, 1);
-  std::string blocks;
-  for (std::size_t k = 0; k < length; ++k) blocks += "█";
-  return blocks;
+  return report::bar(share, longest_bar);
 }
 
 std::string change_text(const KnobResult& knob, const LevelResult& level) {

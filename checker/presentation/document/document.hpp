@@ -72,6 +72,7 @@ enum class Audience : std::uint8_t {
   terminal,
   explained,  ///< at a terminal with -v or --explain, and nowhere else
   documents,  ///< Markdown and pages
+  comment,    ///< Markdown in a comment on a pull request
   page
 };
 

@@ -6,6 +6,6 @@
 
 namespace stormproof::report {
 
-enum class Format : std::uint8_t { text, json, markdown, html, junit, sarif, csv };
+enum class Format : std::uint8_t { text, json, markdown, github, html, junit, sarif, csv };
 
 }  // namespace stormproof::report

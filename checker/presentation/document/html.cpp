@@ -63,7 +63,8 @@ std::string id_attribute(const std::string& id) {
 }
 
 bool page_sees(Audience audience) {
-  return audience != Audience::terminal && audience != Audience::explained;
+  return audience != Audience::terminal && audience != Audience::explained &&
+         audience != Audience::comment;
 }
 
 bool page_shown(const Block& block) {

@@ -276,4 +276,11 @@ std::string to_markdown(const Document& document) {
   return parts.text();
 }
 
+std::string to_comment(Document document, const std::string& verb) {
+  for (Block& block : document.blocks) {
+    if (block.audience == Audience::comment) block.audience = Audience::documents;
+  }
+  return fmt::format("<!-- stormproof {} -->\n{}", verb, to_markdown(document));
+}
+
 }  // namespace stormproof::report

@@ -26,6 +26,10 @@ struct Terminal {
 /// room are left out and named at the end.
 [[nodiscard]] std::string to_markdown(const Document& document);
 
+/// The same with what is for comments alone, and a first line that nobody sees, by which a
+/// workflow finds the comment that it renews: "<!-- stormproof diff -->", of `verb`.
+[[nodiscard]] std::string to_comment(Document document, const std::string& verb);
+
 /// One self-contained page.
 [[nodiscard]] std::string to_html(const Document& document);
 

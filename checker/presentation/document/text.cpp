@@ -106,6 +106,7 @@ class TextPage {
       case Audience::explained:
         return verbose_;
       case Audience::documents:
+      case Audience::comment:
       case Audience::page:
         break;
     }

@@ -22,7 +22,7 @@ class TextTable {
       : table_{table}, width_{width}, colours_{colours} {
     for (std::size_t k = 0; k < table.columns.size(); ++k) {
       const Audience who = table.columns[k].audience;
-      if (who == Audience::page || who == Audience::documents) continue;
+      if (who == Audience::page || who == Audience::documents || who == Audience::comment) continue;
       if (!verbose && (who == Audience::verbose || who == Audience::explained)) continue;
       shown_.push_back(k);
     }

@@ -47,6 +47,14 @@ std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.1f} %", 100 * part / whole) : "–";
 }
 
+std::string bar(double share, std::size_t longest) {
+  auto length = static_cast<std::size_t>(std::lround(share * static_cast<double>(longest)));
+  if (share > 0) length = std::max<std::size_t>(length, 1);
+  std::string blocks;
+  for (std::size_t k = 0; k < length; ++k) blocks += "█";
+  return blocks;
+}
+
 std::string right(const std::string& text, std::size_t width) {
   const std::size_t used = columns(text);
   return std::string(used < width ? width - used : 0, ' ') + text;

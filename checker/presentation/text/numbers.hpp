@@ -20,6 +20,9 @@ namespace stormproof::report {
 /// part / whole in percent with one decimal: "99.7 %".
 [[nodiscard]] std::string percent(double part, double whole);
 
+/// A bar of blocks, `longest` of them if `share` is 1; at least one if it is more than 0.
+[[nodiscard]] std::string bar(double share, std::size_t longest);
+
 /// `text` padded on the left to `width` columns; multi-byte characters count as one column.
 [[nodiscard]] std::string right(const std::string& text, std::size_t width);
 /// The same, padded on the right.

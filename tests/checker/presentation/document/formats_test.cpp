@@ -222,6 +222,19 @@ TEST(Markdown, OfADiffSaysTheJudgmentFirst) {
   EXPECT_NE(to_markdown(document_of(equality(), {})).find("✅ NO REGRESSION"), std::string::npos);
 }
 
+TEST(Markdown, ACommentHasAMarkAndBars) {
+  const std::string markdown = to_markdown(document_of(regression(), {}));
+  const std::string comment = to_comment(document_of(regression(), {}), "diff");
+  EXPECT_EQ(comment.find("<!-- stormproof diff -->\n### stormproof diff "), 0U);
+  EXPECT_EQ(markdown.find("█"), std::string::npos);
+  // The longest of four bars fills its cell, and stands above everything that is folded.
+  EXPECT_EQ(occurrences(comment, "| base | 2.000 s | "), 2U) << comment;
+  std::string longest;
+  for (int k = 0; k < 24; ++k) longest += "█";
+  EXPECT_EQ(occurrences(comment, "|  | candidate | 5.000 s | " + longest + " |"), 1U) << comment;
+  EXPECT_LT(comment.find(longest), comment.find("<details>"));
+}
+
 TEST(Markdown, WhatIsTooLongForACommentIsLeftOutAndNamed) {
   MarkdownDocument document;
   document.add("", "always\n");

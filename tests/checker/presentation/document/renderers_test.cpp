@@ -47,6 +47,7 @@ Document example() {
   document.blocks.emplace_back(Paragraph{"for the terminal"}, Audience::terminal);
   document.blocks.emplace_back(Paragraph{"for documents"}, Audience::documents);
   document.blocks.emplace_back(Paragraph{"for pages"}, Audience::page);
+  document.blocks.emplace_back(Paragraph{"in comments"}, Audience::comment);
   document.blocks.emplace_back(
       Later{[]() -> Blocks { return {Paragraph{"made when it is wanted"}}; }});
   document.assumptions = {"nothing is lost " + hostile};
@@ -80,7 +81,7 @@ TEST(TextRenderer, ShowsBlocksToThoseWhoAskForThem) {
   const std::string brief = to_text(example());
   EXPECT_TRUE(has(brief, "for the terminal"));
   for (const char* part :
-       {"only with -v", "only explained", "for documents", "for pages", "wide"}) {
+       {"only with -v", "only explained", "for documents", "for pages", "in comments", "wide"}) {
     EXPECT_FALSE(has(brief, part)) << part;
   }
   const std::string verbose = to_text(example(), {.verbose = true});
@@ -203,6 +204,8 @@ TEST(MarkdownRenderer, KeepsTextsOfUsersTexts) {
   EXPECT_TRUE(has(text, ", **all** of them"));
   EXPECT_FALSE(has(text, "for the terminal"));
   EXPECT_FALSE(has(text, "for pages"));
+  EXPECT_FALSE(has(text, "in comments"));
+  EXPECT_TRUE(has(to_comment(example(), "example"), "in comments"));
 }
 
 TEST(MarkdownRenderer, LeavesOutWhatACommentHasNoRoomFor) {
@@ -243,6 +246,7 @@ TEST(HtmlRenderer, KeepsTextsOfUsersTexts) {
   EXPECT_TRUE(has(page, "for pages"));
   EXPECT_FALSE(has(page, "for the terminal"));
   EXPECT_FALSE(has(page, "only explained"));
+  EXPECT_FALSE(has(page, "in comments"));
 }
 
 TEST(HtmlRenderer, DrawingsWithoutCaptionStandSideBySide) {
