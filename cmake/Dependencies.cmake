@@ -45,6 +45,12 @@ else()
   find_package(MPI QUIET COMPONENTS CXX)
 endif()
 
+if(STORMPROOF_PYTHON)
+  set(PYBIND11_FINDPYTHON ON)
+  find_package(Python REQUIRED COMPONENTS Interpreter Development.Module)
+  find_package(pybind11 2.10 REQUIRED)
+endif()
+
 # yaml-cpp 0.8 put its target into a namespace; give 0.7's the same name.
 if(NOT TARGET yaml-cpp::yaml-cpp)
   add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)

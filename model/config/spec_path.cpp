@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <dlfcn.h>
 #include <fmt/core.h>
 #include <fmt/ranges.h>
 
@@ -35,6 +36,18 @@ std::optional<std::string> beside_program() {
   const fs::path specs = program.parent_path().parent_path() / "share/stormproof/specs";
   if (!fs::is_directory(specs, failed)) return std::nullopt;
   return specs.string();
+}
+
+/// The folder `specs` beside the file of this code, if that is no program: a Python package has its
+/// own.
+std::optional<std::string> beside_module() {
+  Dl_info found{};
+  if (dladdr(file_ending, &found) == 0) return std::nullopt;
+  std::error_code failed;
+  const fs::path file = found.dli_fname;
+  const fs::path specs = file.parent_path() / "specs";
+  if (fs::equivalent(file, "/proc/self/exe", failed) || failed) return std::nullopt;
+  return fs::is_directory(specs, failed) ? std::optional{specs.string()} : std::nullopt;
 }
 
 std::optional<std::string> file_named(const std::vector<std::string>& directories, SpecKind kind,
@@ -93,6 +106,7 @@ SpecPath SpecPath::standard() {
   path.directories.emplace_back(STORMPROOF_SPECS_DIR);
 #endif
   if (auto beside = beside_program()) path.directories.push_back(*std::move(beside));
+  if (auto beside = beside_module()) path.directories.push_back(*std::move(beside));
 #ifdef STORMPROOF_INSTALLED_SPECS_DIR
   path.directories.emplace_back(STORMPROOF_INSTALLED_SPECS_DIR);
 #endif

@@ -22,7 +22,8 @@ struct SpecPath {
   std::vector<std::string> directories;  ///< the first one that has the file wins
 
   /// The folders in the environment variable STORMPROOF_SPECS (separated by ':'), then those of the
-  /// source tree that this program was built from, then the installed ones.
+  /// source tree that this program was built from, then the installed ones: beside the program, in
+  /// the Python package that this code is a part of, where they were to be installed.
   [[nodiscard]] static SpecPath standard();
 
   /// All names of a kind, sorted.
