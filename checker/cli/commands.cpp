@@ -20,6 +20,7 @@ void declare_commands(Frame& frame) {
   declare_doctor(frame);
   declare_watch(frame);
   declare_capture(frame);
+  declare_annotate(frame);
   declare_conform(frame);
   declare_validate(frame);
   declare_properties(frame);

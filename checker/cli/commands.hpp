@@ -22,6 +22,7 @@ void declare_init(Frame& frame);
 void declare_doctor(Frame& frame);
 void declare_watch(Frame& frame);
 void declare_capture(Frame& frame);
+void declare_annotate(Frame& frame);  ///< after the group `capture`
 void declare_conform(Frame& frame);
 void declare_validate(Frame& frame);
 void declare_properties(Frame& frame);

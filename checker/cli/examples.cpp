@@ -87,6 +87,10 @@ constexpr OfCommand all_examples[] = {
     {"capture summarize",
      {{{"stormproof capture summarize specs/captures/fastdds2611_ap150_np2_ne20_r0.pcap.xz",
         "what was sent, by class, and whether all was delivered"}}}},
+    {"capture annotate",
+     {{{"stormproof capture annotate specs/captures/fastdds2611_ap150_np2_ne20_r0.pcap.xz -o "
+        "annotated.pcapng",
+        "the same capture for Wireshark, with a comment on what was sent in vain"}}}},
     {"conform",
      {{{"stormproof conform specs/captures/fastdds291_veth_np1_ne2_r0.pcap.xz",
         "which shipped profile explains the capture best"},

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace stormproof::doctor {
 
@@ -45,31 +46,39 @@ class RepairFinder {
     }
   }
 
-  void sent(const Event& event, const capture::DataEvent& data, capture::MessageClass is) {
+  void sent(std::size_t position, const Event& event, const capture::DataEvent& data,
+            capture::MessageClass is) {
     if (is != capture::MessageClass::initial_data && is != capture::MessageClass::repair_data) {
       return;
     }
     ToReader& relation = relations_[{event.source, *event.destination, event.writer}];
     const std::int64_t number = data.sequence_number;
     if (is == capture::MessageClass::repair_data) {
-      if (relation.forgotten.erase(number) > 0) {
-        ++repairs_.forgotten;
-      } else if (number < relation.acknowledged) {
-        ++repairs_.acknowledged;
-      } else if (relation.lost.erase(number) > 0) {
-        ++repairs_.lost;
-      } else {
-        ++repairs_.under_way;
-      }
+      repairs_.kinds.emplace(position, kind_of(relation, number));
     }
     relation.first_sent.try_emplace(number, event.time_ns);
     relation.last_sent[number] = event.time_ns;
   }
 
-  [[nodiscard]] const Repairs& repairs() const { return repairs_; }
+  [[nodiscard]] Repairs take() { return std::move(repairs_); }
 
  private:
   using Key = std::tuple<GuidPrefix, GuidPrefix, capture::EntityId>;
+
+  RepairKind kind_of(ToReader& relation, std::int64_t number) {
+    const auto counted = [](std::uint64_t& count, RepairKind kind) {
+      ++count;
+      return kind;
+    };
+    if (relation.forgotten.erase(number) > 0) {
+      return counted(repairs_.forgotten, RepairKind::forgotten);
+    }
+    if (number < relation.acknowledged) {
+      return counted(repairs_.acknowledged, RepairKind::acknowledged);
+    }
+    if (relation.lost.erase(number) > 0) return counted(repairs_.lost, RepairKind::lost);
+    return counted(repairs_.under_way, RepairKind::under_way);
+  }
 
   static void begin_anew(ToReader& relation) {
     for (const auto& [number, time] : relation.last_sent) relation.forgotten.insert(number);
@@ -90,9 +99,9 @@ Repairs find_repairs(const capture::Conversation& conversation, const capture::C
     const Event& event = conversation.events[k];
     if (!counting.classes[k] || !event.destination || event.time_ns > end_ns) continue;
     if (const auto* acknack = event.acknack()) finder.heard(event, *acknack);
-    if (const auto* data = event.data()) finder.sent(event, *data, *counting.classes[k]);
+    if (const auto* data = event.data()) finder.sent(k, event, *data, *counting.classes[k]);
   }
-  return finder.repairs();
+  return finder.take();
 }
 
 }  // namespace stormproof::doctor

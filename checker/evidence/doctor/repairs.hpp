@@ -9,16 +9,20 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 
 #include "checker/evidence/capture/counting.hpp"
 
 namespace stormproof::doctor {
+
+enum class RepairKind : std::uint8_t { acknowledged, lost, forgotten, under_way };
 
 struct Repairs {
   std::uint64_t acknowledged = 0;  ///< of what the reader had acknowledged
   std::uint64_t lost = 0;
   std::uint64_t forgotten = 0;  ///< for a reader that begins anew
   std::uint64_t under_way = 0;
+  std::map<std::size_t, RepairKind> kinds{};  ///< by the event's position in the conversation
 
   [[nodiscard]] std::uint64_t needless() const { return acknowledged + under_way; }
   [[nodiscard]] std::uint64_t needed() const { return lost + forgotten; }
