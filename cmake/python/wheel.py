@@ -31,7 +31,8 @@ def _install(folder):
     _run("cmake", "--build", BUILD, "--target", "stormproof_python", "-j", jobs)
     _run("cmake", "--install", BUILD, "--component", "python", "--prefix", folder)
     (info,) = pathlib.Path(folder).rglob("stormproof-*.dist-info")
-    shutil.copytree(ROOT / "specs", info.parent / "stormproof" / "specs")
+    specs = info.parent / "stormproof" / "specs"
+    shutil.copytree(ROOT / "specs", specs, ignore=shutil.ignore_patterns("site", "ci"))
     return info
 
 

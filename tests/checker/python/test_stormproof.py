@@ -144,6 +144,15 @@ class Verbs(unittest.TestCase):
             answer = stormproof.diff("paper", "paper", no_check=True, output=folder)
         self.assertEqual((answer["exit_code"], answer["verdict"]), (0, "same"))
 
+    def test_conform_of_a_capture(self):
+        specs = pathlib.Path(__file__).resolve().parents[3] / "specs"
+        capture = specs / "captures/fastdds291_veth_np1_ne2_r0.pcap.xz"
+        self.assertEqual(stormproof.conform(capture, dds="fastdds-2.9.1")["verdict"], "conforms")
+
+    def test_tune_finds_something(self):
+        answer = stormproof.tune("live-5x20", budget=50)
+        self.assertEqual((answer["exit_code"], answer["verdict"]), (0, "better"))
+
     def test_a_verb_refuses_with_the_place(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "fleet.yaml"
