@@ -550,11 +550,12 @@ constexpr void visit_knobs(auto& visit, Is<DdsProfile> auto& dds) {
              "sedp.piggyback", "cumulative, linear or off; group is of implementation: fastdds");
 
   const Bytes header = dds.sedp.shared_header_bytes;
-  const std::string more =
-      fmt::format("more than the {} bytes of shared_header_bytes", header.count());
+  const auto more = [header] {
+    return fmt::format("more than the {} bytes of shared_header_bytes", header.count());
+  };
   const auto& [first, last] = dds.descriptors.default_bytes;
-  visit.rule(first > header && last > header, "descriptors.default_bytes", more);
-  visit.rule(dds.descriptors.user_bytes > header, "descriptors.user_bytes", more);
+  visit.rule(first > header && last > header, "descriptors.default_bytes", more());
+  visit.rule(dds.descriptors.user_bytes > header, "descriptors.user_bytes", more());
 }
 
 }  // namespace stormproof::model::config
