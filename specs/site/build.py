@@ -7,7 +7,8 @@ Adds what the program prints of itself: drawings of machines and compositions, t
 reproduction of the paper. In a block `console` the output shown is what the program prints now,
 and where a page leaves lines out ("...") so does the site; tests/cli/pages_test.cpp compares them.
 
-usage: build.py --source DIR --program FILE --output DIR [--only-links]
+usage: build.py --source DIR --program FILE --output DIR [--engine DIR --node FILE] [--only-links]
+  --engine, --node  with the page that simulates: its engine, as the target `play` builds it, and what packs it
   --only-links  lay the pages out and look whether their links lead somewhere; no MkDocs, no Doxygen
 Exit code: 0, or 1 if a page links to nothing or a program fails.
 """
@@ -28,7 +29,7 @@ LANGUAGES = {".hpp": "cpp", ".cpp": "cpp", ".yaml": "yaml", ".yml": "yaml", ".xm
              ".txt": "text", ".cmake": "cmake", ".sh": "sh", ".py": "python"}
 MERMAID = "mermaid@9.4.3"
 GUIDE = {"Use it": ["checking", "bounds", "cannot-start", "profiles", "diff", "comparing-discovery", "tuning", "sensitivity", "fuzzing",
-                    "sweeping", "reports", "output"],
+                    "sweeping", "play", "reports", "output"],
          "Beside reality": ["doctor", "captures", "conforming", "validating", "coverage", "reproducing", "live"]}
 
 
@@ -129,6 +130,14 @@ class Site:
             text += "    ```\n"
         self.write("drawings/compositions.md", text)
 
+    def play(self, engine: Path, node: Path) -> None:
+        """The page that simulates, and its storm on the start page."""
+        subprocess.run([node, self.source / "specs/site/play/pack.mjs", "--source", self.source, "--engine", engine,
+                        "--output", self.docs, "--guide", "./"], check=True)
+        start = (self.docs / "README.md").read_text(encoding="utf-8")
+        head, title, rest = start.partition("# stormproof\n")
+        self.write("README.md", f'{head}{title}\n<div id="storm"></div>\n<script src="storm.js"></script>\n{rest}')
+
     def catalogues(self) -> None:
         self.write("properties.md", self.run("properties", "--format", "markdown"))
         text = "# Verbs\n\nWhat `stormproof help VERB` says.\n"
@@ -185,6 +194,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     for name in ("source", "program", "output"):
         parser.add_argument(f"--{name}", type=Path, required=True)
+    parser.add_argument("--engine", type=Path)
+    parser.add_argument("--node", type=Path)
     parser.add_argument("--only-links", action="store_true")
     given = parser.parse_args()
     source, output = given.source.resolve(), given.output.resolve()
@@ -209,11 +220,15 @@ def main() -> int:
     for name in ("site.css", "diagrams.js"):
         shutil.copyfile(source / "specs/site" / name, docs / name)
     mermaid(docs)
+    if given.engine:
+        site.play(given.engine.resolve(), given.node)
     site.write("paper.html", site.run("reproduce", "paper", "--format", "html"))
     site.write("museum.html", site.run("museum", "--format", "html"))
     extras = [("The museum", "museum.html"), ("The paper, reproduced", "paper.html"), ("Verbs", "verbs.md"), ("Properties", "properties.md"),
               ("Performance", "specs/performance.md"), ("Architecture", "ARCHITECTURE.md"),
               ("Contributing", "CONTRIBUTING.md"), ("Changes", "CHANGELOG.md")]
+    if given.engine:
+        extras.insert(0, ("A storm to play with", "play.html"))
     if shutil.which("doxygen"):
         doxygen(source, docs)
         extras.append(("API of fsm and model", "api/index.html"))
