@@ -12,7 +12,7 @@ if(STORMPROOF_NODE AND STORMPROOF_EMSCRIPTEN)
     COMMAND ${with_acorn} "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/checker/page"
             -B "${PROJECT_BINARY_DIR}/play/engine" -G "${CMAKE_GENERATOR}" --log-level=WARNING
             -DCMAKE_TOOLCHAIN_FILE=${STORMPROOF_EMSCRIPTEN} -DCMAKE_BUILD_TYPE=Release
-            "-DSTORMPROOF_HEADERS=${Boost_INCLUDE_DIRS}" -DSTORMPROOF_VERSION=${PROJECT_VERSION}
+            "-DSTORMPROOF_HEADERS=${Boost_INCLUDE_DIRS}"
     COMMAND ${with_acorn} "${CMAKE_COMMAND}" --build "${PROJECT_BINARY_DIR}/play/engine" --target play
     COMMAND "${STORMPROOF_NODE}" "${PROJECT_SOURCE_DIR}/specs/site/play/pack.mjs"
             --source "${PROJECT_SOURCE_DIR}" --engine "${PROJECT_BINARY_DIR}/play/engine"

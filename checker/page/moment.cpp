@@ -43,6 +43,7 @@ class Witness final : public model::Probe {
     return reports;
   }
   [[nodiscard]] bool wants_single_packets() const override { return false; }
+  [[nodiscard]] bool wants_effects() const override { return true; }
 
   void run_started(const model::Topology& topology) override {
     topology_.emplace(topology);

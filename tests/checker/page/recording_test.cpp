@@ -112,7 +112,7 @@ TEST(Moment, NamesTheRulesOfAnEvent) {
   }
   ASSERT_FALSE(moment.effects.empty());
   const std::string& effect = moment.effects.front();
-  EXPECT_EQ(effect.substr(0, effect.find('.')), "AnnouncementDue");
+  EXPECT_EQ(effect.substr(0, effect.find('.')), "AnnouncementIsDue");
   EXPECT_FALSE(moment.packets.empty());
 }
 
