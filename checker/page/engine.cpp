@@ -1,5 +1,6 @@
 // What the script of the page calls: one scenario at a time, text in, JSON out. Times are in
 // nanoseconds and exact: a double of JavaScript holds 104 days of them.
+#include <algorithm>
 #include <string>
 
 #include <emscripten/emscripten.h>
@@ -21,6 +22,8 @@ namespace stormproof::page {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_known_bytes = 64 * 1024 * 1024;
 
 struct Engine {
   std::optional<model::Scenario> scenario;
@@ -172,7 +175,12 @@ EMSCRIPTEN_KEEPALIVE const char* page_sample(double seed) {
 EMSCRIPTEN_KEEPALIVE const char* page_record(int pictures) {
   const model::Scenario& scenario = *engine().scenario;
   Recording& recording = engine().recording;
-  recording = record(scenario, static_cast<std::size_t>(std::max(pictures, 1)));
+  // Who knows whom takes memory in the square of the participants: fewer pictures of many.
+  const std::size_t pairs =
+      scenario.deployment.participants.size() * scenario.deployment.participants.size();
+  const std::size_t most =
+      std::max<std::size_t>(most_known_bytes / std::max<std::size_t>(pairs, 1), 1);
+  recording = record(scenario, std::min(most, static_cast<std::size_t>(std::max(pictures, 1))));
   Json json = described(recording.result);
   json["health"] = described(exact::health_of(scenario, recording.result));
   Json list = Json::array();

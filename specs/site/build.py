@@ -223,7 +223,11 @@ def main() -> int:
     if given.engine:
         site.play(given.engine.resolve(), given.node)
     site.write("paper.html", site.run("reproduce", "paper", "--format", "html"))
-    site.write("museum.html", site.run("museum", "--format", "html"))
+    museum = site.run("museum", "--format", "html")
+    if given.engine:
+        links = " ".join(f'<a href="play.html#exhibit={one.stem}">{one.stem}</a>' for one in sorted((source / "specs/museum").glob("*.yaml")))
+        museum = museum.replace("</h1>", f"</h1>\n<p>To play with: {links}</p>", 1)
+    site.write("museum.html", museum)
     extras = [("The museum", "museum.html"), ("The paper, reproduced", "paper.html"), ("Verbs", "verbs.md"), ("Properties", "properties.md"),
               ("Performance", "specs/performance.md"), ("Architecture", "ARCHITECTURE.md"),
               ("Contributing", "CONTRIBUTING.md"), ("Changes", "CHANGELOG.md")]

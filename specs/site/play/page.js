@@ -164,7 +164,9 @@ const run = async () => {
     showRun();
     sample(mine);
   } catch (failure) {
-    if (mine === generation) complain("engine", failure.message);
+    if (mine !== generation) return;
+    complain("engine", failure.message);
+    runner.restart();  // what has failed in its middle cannot go on
   } finally {
     if (mine === generation) $("stop").hidden = true;
   }
@@ -264,7 +266,7 @@ const drawMatrix = () => {
       const remote = scenario.hosts[i] !== scenario.hosts[j];
       pairs += remote;
       whole += remote && known === 255;
-      pen.globalAlpha = 0.25 + 0.75 * (known / 255);
+      pen.globalAlpha = (0.25 + 0.75 * (known / 255)) * (remote ? 1 : 0.5);
       pen.fillStyle = color(remote ? "--c0" : "--c4");
       // The part that is known, from below: lightness and height both say it.
       pen.fillRect(x, y + (cell - 1) * (1 - known / 255), cell - 1, (cell - 1) * (known / 255));
@@ -470,7 +472,7 @@ const showMachine = (moment) => {
   $("machine").value = chosen;
   const holder = element("div");
   const root = holder.attachShadow({ mode: "open" });  // drawings have style sheets of their own
-  root.innerHTML = `<style>svg { max-width: 100%; min-width: 34rem; height: auto } .active { stroke-width: 4 !important; fill: var(--info-fill) !important }
+  root.innerHTML = `<style>svg { max-width: 100%; min-width: 46rem; height: auto } .active { stroke-width: 4 !important; fill: var(--info-fill) !important }
     .many { fill: var(--packet); font-weight: 600 }</style>${constants.machines[chosen].svg}`;
   for (const box of root.querySelectorAll("rect.state")) {
     const name = [...root.querySelectorAll("text.bold")].find((text) => {
@@ -555,7 +557,8 @@ $("on").addEventListener("click", () => stepEvent(1));
 $("back-own").addEventListener("click", () => stepOwn(false));
 $("on-own").addEventListener("click", () => stepOwn(true));
 addEventListener("keydown", (key) => {
-  if (key.ctrlKey || key.altKey || key.metaKey || key.target.closest("input, select, textarea, button, summary, a")) return;
+  const own = key.key === " " ? "input, select, textarea, button, summary, a" : "input, select, textarea";
+  if (key.ctrlKey || key.altKey || key.metaKey || key.target.closest(own)) return;
   if (key.key === "ArrowRight" || key.key === "ArrowLeft") {
     const forward = key.key === "ArrowRight";
     key.shiftKey ? stepOwn(forward) : stepEvent(forward ? 1 : -1);

@@ -47,7 +47,7 @@
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) return draw(last);
   const begin = performance.now();
   const frame = (now) => {
-    draw(Math.min(last, Math.floor(((now - begin) % 9000) / 60)));
+    draw(Math.min(last, Math.floor((Math.max(0, now - begin) % 9000) / 60)));
     requestAnimationFrame(frame);
   };
   requestAnimationFrame(frame);

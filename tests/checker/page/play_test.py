@@ -106,6 +106,20 @@ def refuse(browser, page):
             failures.append(f"{yaml!r}: says {said!r}, expected {wanted!r} in it")
 
 
+def start_page(browser, script):
+    """The recorded storm moves, and leads to the page."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "index.html"
+        file.write_text(f'<!doctype html><body><div id="storm"></div><script src="{script.resolve().as_uri()}"></script>', encoding="utf-8")
+        browser.open(file.as_uri())
+        browser.wait_for("document.querySelector('canvas') !== null")
+        browser.evaluate("window.first = document.querySelector('canvas').toDataURL()")
+        browser.wait_for("document.querySelector('canvas').toDataURL() !== first")
+        expect("the start page leads to", browser.evaluate("document.querySelector('#storm a').getAttribute('href')"),
+               f"play.html#{ADDRESSES[0]}")
+        expect("the start page says", browser.evaluate("document.querySelector('#storm').textContent.includes('STORM')"), True)
+
+
 def look(browser, page, folder):
     """No page scrolls sideways, at any width, light or dark."""
     for width in (400, 1280, 1920):
@@ -147,6 +161,7 @@ def main():
         browser.wait_for(DONE)
         step(browser)
         refuse(browser, page)
+        start_page(browser, given.build / "play/storm.js")
         look(browser, page, given.screenshots)
         failures.extend(browser.complaints)
     finally:
