@@ -2,7 +2,9 @@
 // returns at once: the engine of the page has no exceptions.
 #include "checker/page/plain_yaml.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -293,7 +295,7 @@ class Reader {
       const auto [line, line_begin, at] = std::tuple{line_, line_begin_, at_};
       std::size_t breaks = 0;
       while (!is_end() && is_gap(look())) {
-        breaks += look() == '\n' ? 1 : 0;
+        if (look() == '\n') ++breaks;
         skip();
       }
       const bool goes_on = !is_end() && look() != '#' &&
