@@ -8,7 +8,9 @@ chromium.
 """
 import argparse
 import base64
+import gzip
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -25,6 +27,7 @@ time_limit: 30s
 """
 ADDRESSES = [
     urlencode({"scenario": "wifi-5x20-fastdds"}),
+    "",  # the controls as they are at first
     urlencode({"scenario": "wifi-5x20"}),
     urlencode({"scenario": "staggered-joins"}),
     urlencode({"exhibit": "E3"}),
@@ -75,7 +78,7 @@ def compare(browser, page, program, address):
             expect(f"{address} {key}", got[key], expected[key])
         for key, value in got["counts"].items():
             expect(f"{address} {key}", value, expected["counts"][key])
-    print(f"{address}: {film['t_disc_ns']} ns, {film['events']} events, {len(pairs)} runs compared")
+    print(f"#{address}: {film['t_disc_ns']} ns, {film['events']} events, {len(pairs)} runs compared")
 
 
 def step(browser):
@@ -151,8 +154,11 @@ def main():
     if not given.has_play or not shutil.which("chromium"):
         print("skipped: emscripten, node or chromium is missing (cmake/debian-packages.txt: play, test)")
         return 77
-    subprocess.run(["cmake", "--build", given.build, "--target", "play"], check=True)
-    page = (given.build / "play/play.html").resolve().as_uri()
+    jobs = {"CMAKE_BUILD_PARALLEL_LEVEL": os.environ.get("STORMPROOF_JOBS", "1")}  # other tests run beside it
+    subprocess.run(["cmake", "--build", given.build, "--target", "play"], check=True, env={**os.environ, **jobs})
+    file = (given.build / "play/play.html").resolve()
+    page = file.as_uri()
+    expect("compressed, at most 1.5 MB", len(gzip.compress(file.read_bytes())) <= 1_500_000, True)
     browser = Browser()
     try:
         for address in ADDRESSES:
