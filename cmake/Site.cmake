@@ -11,6 +11,9 @@ if(TARGET stormproof AND Python3_FOUND)
     COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/specs/site/build.py"
             --source "${PROJECT_SOURCE_DIR}" --program "$<TARGET_FILE:stormproof>"
             --output "${PROJECT_BINARY_DIR}/site" ${with_play}
-    DEPENDS stormproof $<TARGET_NAME_IF_EXISTS:play>
+    DEPENDS stormproof
     USES_TERMINAL VERBATIM)
+  if(TARGET play)
+    add_dependencies(site play)
+  endif()
 endif()

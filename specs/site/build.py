@@ -34,8 +34,8 @@ GUIDE = {"Use it": ["checking", "bounds", "cannot-start", "profiles", "diff", "c
 
 
 class Site:
-    def __init__(self, source: Path, program: Path, docs: Path):
-        self.source, self.program, self.docs = source, program, docs
+    def __init__(self, source: Path, program: Path, docs: Path, has_play: bool):
+        self.source, self.program, self.docs, self.has_play = source, program, docs, has_play
         self.staged: set[str] = set()
         self.missing: list[str] = []
 
@@ -99,7 +99,9 @@ class Site:
         name = f"{there}.md"
         if name not in self.staged:
             self.staged.add(name)
-            self.write(name, f"# {there}\n\n````{LANGUAGES.get(path.suffix, 'text')}\n"
+            is_scenario = self.has_play and there.parent == Path("specs/scenarios")
+            play = f"[Simulate it in a page](../../play.html#scenario={there.stem})\n\n" if is_scenario else ""
+            self.write(name, f"# {there}\n\n{play}````{LANGUAGES.get(path.suffix, 'text')}\n"
                              f"{path.read_text(encoding='utf-8')}\n````\n")
         return name
 
@@ -204,7 +206,7 @@ def main() -> int:
     docs = work / "docs"
     docs.mkdir(parents=True)
 
-    site = Site(source, given.program.resolve(), docs)
+    site = Site(source, given.program.resolve(), docs, given.engine is not None)
     for page in PAGES:
         site.page(page)
     for folder in FOLDERS:
