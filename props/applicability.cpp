@@ -58,7 +58,7 @@ std::string_view why_not_said(const Property& property, model::ImplementationKin
       if (words.closed_loop && is_read) return {};
       return "it is stated for the rules of the closed-loop model, amended or not, and "
              "live.recovery and live.isolation for Fast DDS whose participants have a life "
-             "(deployment.life)";
+             "(deployment.life), live.recovery for Cyclone DDS, too";
     case Vocabulary::descriptors:
       if (is_read) return {};
       if (!words.samples) return of_known_writers;
@@ -78,7 +78,8 @@ constexpr std::size_t most_losses_to_find = 100;
 std::string_view why_nothing_to_recover_from(const model::Scenario& scenario) {
   const auto& life = scenario.deployment.life;
   const bool fails = life && !(life->stale.empty() && life->mute.empty() && life->outages.empty() &&
-                               life->restarts.empty() && life->endpoints.empty());
+                               life->restarts.empty() && life->endpoints.empty() &&
+                               life->leaves.empty() && life->deletions.empty());
   return fails ? ""
                : "nobody forgets, fails, comes back or changes its endpoints in this deployment "
                  "(deployment.life)";
@@ -161,9 +162,10 @@ std::string_view why_not_mixed(const Property& property, const model::Scenario& 
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  const bool is_read =
-      is_living && property.of_lives &&
-      (traits.writer == model::Writer::stateful || property.about == Vocabulary::rules);
+  const bool can_read = traits.writer == model::Writer::stateful ||
+                        property.about == Vocabulary::rules ||
+                        (traits.has_event_thread && property.samples);
+  const bool is_read = is_living && property.of_lives && can_read;
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
   if (is_read) why = {};
   if (why.empty()) why = why_not_mixed(property, scenario);

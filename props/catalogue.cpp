@@ -220,6 +220,12 @@ const std::array properties{
         .source = "museum.md, the properties",
         .about = Vocabulary::closed_loop,
         .amended = Wording{.engines = {tables}},
+        .samples =
+            Wording{.addition =
+                        "Of Cyclone DDS: who has somebody else knows exactly what that one has; B "
+                        "= L + E + A + k (H + N + 4 Δ), A until the next announcement, H the "
+                        "longest distance of HEARTBEATs, N until a reader asks again, k rounds of "
+                        "repairs."},
         .of_lives = true,
         .counts_on = Premise::punctual_timers,
         .needs = Need::failure},

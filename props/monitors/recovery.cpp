@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "model/implementations.hpp"
 #include "model/life.hpp"
 #include "model/trace/event_subject.hpp"
 #include "props/monitors/delay_observer.hpp"
@@ -17,6 +18,7 @@
 #include "props/monitors/observer.hpp"
 #include "props/monitors/received_descriptors.hpp"
 #include "props/monitors/recovery_bound.hpp"
+#include "props/monitors/recovery_of_samples.hpp"
 
 namespace stormproof::props {
 
@@ -178,6 +180,9 @@ class Recovery : public DelayObserver {
 
 MonitorPtr watch_recovery(const model::Scenario& scenario,
                           std::optional<model::Nanoseconds> bound) {
+  if (model::traits_of(scenario.dds).has_event_thread) {
+    return watch_recovery_of_samples(scenario, bound);
+  }
   return attentive<Recovery>(scenario, bound);
 }
 

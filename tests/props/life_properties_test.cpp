@@ -210,6 +210,47 @@ TEST(FastDdsRecovery, MistakesInLivesAreNoticed) {
   EXPECT_EQ(noticed, needed);
 }
 
+/// Three participants of Cyclone DDS, and what happens to them.
+Scenario living_cyclone(std::uint64_t seed, const std::string& profile) {
+  Scenario scenario =
+      shipped("rejoin-fastdds", {"deployment.life={}", "run_until=time_limit", "dds=" + profile});
+  Dice dice{seed};
+  draw_life(dice, scenario);
+  model::Life& life = *scenario.deployment.life;
+  life.stale.clear();
+  life.leases.clear();
+  life.lease.reset();
+  life.endpoints.clear();
+  for (model::Restart& restart : life.restarts) restart.identity = model::Identity::fresh;
+  return scenario;
+}
+
+TEST(CycloneRecovery, IsWithinTheBoundInRandomLives) {
+  int decided = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto scenario =
+        living_cyclone(seed, seed % 2 == 0 ? "cyclonedds-0.10" : "cyclonedds-0.10-multicast");
+    const auto monitor = watched("live.recovery", scenario);
+    EXPECT_FALSE(monitor->violation()) << "seed " << seed << ": " << monitor->violation()->reason;
+    if (!monitor->is_undecided()) ++decided;
+  }
+  EXPECT_GE(decided, 35);
+}
+
+/// 11 without multicast, an outage of 45 s: exhibit E18.
+TEST(CycloneRecovery, OfElevenWithoutMulticastFails) {
+  Scenario scenario =
+      shipped("rejoin-fastdds", {"deployment.life={}", "run_until=time_limit", "time_limit=300s",
+                                 "dds={base: cyclonedds-11, allow_multicast: false, peers: 1}"});
+  scenario.deployment.life->outages = {
+      {0, 0, ms(12'000), ms(57'000), model::Reach::all, model::Reach::all}};
+  const auto never = watched("live.recovery", scenario);
+  ASSERT_TRUE(never->violation());
+  EXPECT_NE(never->violation()->reason.find("nothing more is learned"), std::string::npos);
+  scenario.dds.spdp.period = ms(5'000);
+  EXPECT_FALSE(watched("live.recovery", scenario)->violation());
+}
+
 TEST(FastDdsIsolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
   Scenario scenario =
       shipped("rejoin-fastdds", {"run_until=time_limit", "time_limit=20s", "dds.sedp.piggyback=off",
@@ -252,6 +293,9 @@ TEST(LifeProperties, SayWhereTheySayNothing) {
   EXPECT_EQ(why("composition.followed"), "");
   EXPECT_EQ(why("live.recovery"), "");
   EXPECT_NE(why("live.isolation").find("constant delays"), std::string::npos);
+  scenario.dds.implementation = model::ImplementationKind::cyclone;
+  EXPECT_EQ(why("live.recovery"), "");
+  EXPECT_NE(why("live.isolation"), "");
 }
 
 }  // namespace life_properties_test
