@@ -264,6 +264,10 @@ void CycloneDomainReader::keep(CycloneReading reading) {
     settings_.peers.push_back(std::move(reading));
     return;
   }
+  if (path == "Discovery/Peers/Peer[@PruneDelay]") {
+    settings_.prune_delays.push_back(std::move(reading));
+    return;
+  }
   if (path == "General/Interfaces/NetworkInterface[@multicast]") {
     settings_.interfaces.back().multicast = reading;
   } else if (path == "General/Interfaces/NetworkInterface[@allow_multicast]") {

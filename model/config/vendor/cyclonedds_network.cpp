@@ -61,8 +61,26 @@ class Network {
       look_at_peer(peer);
     }
     const CycloneReading& first = settings_.peers.front();
+    if (const auto ports = modelled_ports()) {
+      (void)set_path(profile_.changes, "peers",
+                     Node::scalar(first.place, fmt::format("{}", *ports)));
+      for (const CycloneReading& peer : settings_.peers) {
+        setting(peer).effect = Effect::knob;
+        setting(peer).knob = "peers";
+        setting(peer).note = fmt::format(
+            "announcements go to {} ports of it; in the model, of every other host", *ports);
+      }
+      return;
+    }
     assume(profile_, first.option->path, first.place,
            fmt::format("{}; {}", addresses, first.option->note));
+  }
+
+  /// Ports of each peer, if the model has as many.
+  [[nodiscard]] std::optional<std::int64_t> modelled_ports() const {
+    constexpr std::int64_t most = 1'000;
+    const auto ports = settings_.ports_of_peers();
+    return ports && *ports <= most ? ports : std::nullopt;
   }
 
   /// Addresses stand with commas between them; the first that is none ends the list
@@ -102,7 +120,8 @@ class Network {
     const auto has = [&](std::string_view word) { return words.find(word) != std::string::npos; };
     const bool sedp = has("asm") || has("ssm") || has("true");
     const bool announces = settings_.announcing() != Announcing::nowhere;
-    std::string knob = sedp && announces ? "true" : "spdp";
+    const bool only_to_peers = !announces && modelled_ports();
+    std::string knob = only_to_peers ? "false" : sedp && announces ? "true" : "spdp";
     std::string what = sedp ? "what has several readers goes by multicast, as here"
                             : "SEDP goes by unicast, as here";
     if (has("default") && announces) {
@@ -122,11 +141,17 @@ class Network {
   void apply_silence() {
     const CycloneReading& cause = *settings_.silencer();
     const std::string what = fmt::format("{} {}", cause.option->path, cause.shown);
-    const std::string_view note =
-        "announcements go to the peers alone, by unicast; the model sends them by multicast";
-    setting(cause).effect = Effect::unmodelled;
-    setting(cause).note = note;
-    assume(profile_, cause.option->path, cause.place, fmt::format("{}; {}", cause.shown, note));
+    if (modelled_ports()) {
+      setting(cause).effect = Effect::knob;
+      setting(cause).knob = "allow_multicast";
+      setting(cause).note = "announcements go to the peers alone, by unicast, as here";
+    } else {
+      const std::string_view note =
+          "announcements go to the peers alone, by unicast; the model sends them by multicast";
+      setting(cause).effect = Effect::unmodelled;
+      setting(cause).note = note;
+      assume(profile_, cause.option->path, cause.place, fmt::format("{}; {}", cause.shown, note));
+    }
     if (std::ranges::none_of(settings_.peers, leads_somewhere)) {
       setting(cause).effect = Effect::outside;
       remark(Severity::error, "no-announcements", cause.place,

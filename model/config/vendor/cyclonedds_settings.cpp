@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "model/config/knobs/value_types.hpp"
+#include "model/config/vendor/addresses.hpp"
 
 namespace stormproof::model::config::vendor {
 namespace {
@@ -39,6 +40,7 @@ class Effects {
     apply_announcements();
     apply_heartbeats();
     apply_durations();
+    apply_prune_delays();
     apply_message_size();
     return failure_;
   }
@@ -74,6 +76,16 @@ class Effects {
       return;
     }
     change(key, reading.place, print_duration(Nanoseconds{ns}));
+  }
+
+  /// The same of a delay that may have no end, which is the longest one here.
+  void change_delay(const std::string& key, const CycloneReading& reading, std::int64_t least) {
+    if (reading.value.word != "inf") {
+      return change_duration(key, reading, reading.value.number, least);
+    }
+    const std::string longest = print_duration(Nanoseconds{max_duration_ns});
+    setting(reading).note += fmt::format("; no end is {} here", longest);
+    change(key, reading.place, longest);
   }
 
   /// Leaves a setting that the model has not as an assumption, or says that it is the default.
@@ -165,7 +177,6 @@ class Effects {
   }
 
   void apply_durations() {
-    constexpr Nanoseconds longest{max_duration_ns};
     for (const auto& [path, least] : {std::pair{"Internal/AckDelay", 0},
                                       {"Internal/NackDelay", 0},
                                       {"Internal/PreEmptiveAckDelay", 0},
@@ -173,19 +184,53 @@ class Effects {
                                       {"Internal/HeartbeatInterval[@max]", 1}}) {
       const CycloneReading* delay = settings_.find(path);
       if (delay == nullptr) continue;
-      const bool has_end = delay->value.word != "inf";
-      if (!has_end) {
-        setting(*delay).note += fmt::format("; no end is {} here", print_duration(longest));
-        change(std::string{delay->option->knob}, delay->place, print_duration(longest));
-        continue;
-      }
-      change_duration(std::string{delay->option->knob}, *delay, delay->value.number, least);
+      change_delay(std::string{delay->option->knob}, *delay, least);
     }
     if (const CycloneReading* most = settings_.find("Internal/MaxQueuedRexmitMessages")) {
       constexpr std::int64_t enough = 1'000'000;
       change("sedp.max_queued_rexmit_messages", most->place,
              fmt::format("{}", std::min(most->value.number, enough)));
     }
+  }
+
+  /// That of all peers, unless they have one of their own, which the model takes if it is the same
+  /// one for each of them.
+  void apply_prune_delays() {
+    constexpr std::string_view initial = "spdp.initial_prune_delay";
+    for (const char* path :
+         {"Discovery/InitialLocatorPruneDelay", "Discovery/DiscoveredLocatorPruneDelay"}) {
+      if (const CycloneReading* delay = settings_.find(path)) prune_after(*delay, path);
+    }
+    std::vector<const CycloneReading*> own;
+    for (const CycloneReading& delay : settings_.prune_delays) {
+      if (delay.value.word != "default") own.push_back(&delay);
+    }
+    if (own.empty()) return;
+    const auto is_like_first = [&](const CycloneReading* delay) {
+      return delay->value.word == own.front()->value.word &&
+             delay->value.number == own.front()->value.number;
+    };
+    const bool has_each = own.size() == settings_.peers.size();
+    if (!has_each || !std::ranges::all_of(own, is_like_first)) {
+      return assume(profile_, own.front()->option->path, own.front()->place,
+                    fmt::format("{}; {}", own.front()->shown,
+                                "peers with different ones; the model has one for all"));
+    }
+    for (const CycloneReading* delay : own) {
+      setting(*delay).effect = Effect::knob;
+      setting(*delay).knob = initial;
+    }
+    prune_after(*own.front(), own.front()->option->path);
+  }
+  /// An address that is dropped at once is one that is dropped after its first announcement.
+  void prune_after(const CycloneReading& delay, std::string_view path) {
+    const bool is_discovered = path == "Discovery/DiscoveredLocatorPruneDelay";
+    const std::string key =
+        is_discovered ? "spdp.discovered_prune_delay" : "spdp.initial_prune_delay";
+    if (delay.value.word.empty() && delay.value.number == 0) {
+      return change(key, delay.place, print_duration(Nanoseconds{1}));
+    }
+    change_delay(key, delay, 1);
   }
 
   void apply_message_size() {
@@ -311,6 +356,18 @@ std::string CycloneSettings::participant_index() const {
   if (word != "default") return word;
   // decide_participant_index_and_add_localhost_to_peers in ddsi_init.c
   return announcing() == Announcing::everywhere && peers.empty() ? "none" : "auto";
+}
+
+std::optional<std::int64_t> CycloneSettings::ports_of_peers() const {
+  const auto is_host = [](const CycloneReading& peer) {
+    const std::string& list = peer.value.word;
+    return list.find_first_of(",:[") == std::string::npos && why_no_address(list).empty();
+  };
+  if (peers.empty() || !std::ranges::all_of(peers, is_host)) return std::nullopt;
+  const std::int64_t most = value("Discovery/MaxAutoParticipantIndex").number;
+  // Up to the most in 11 (ddsi_spdp_schedule.c), below it in 0.10 (q_addrset.c), where the first
+  // one is always asked.
+  return version == CycloneVersion::of_11 ? most + 1 : std::max<std::int64_t>(most, 1);
 }
 
 std::optional<std::int64_t> CycloneSettings::participants_of_a_host() const {

@@ -48,13 +48,17 @@ class CycloneSettings {
   /// "auto" or "none"; empty: a number. What `default` of 11 comes to, and where 0.10 has an
   /// interface without multicast.
   [[nodiscard]] std::string participant_index() const;
+  /// So many ports of each peer are announced to, if all peers are hosts without a port; nothing:
+  /// there are no peers, or some have one.
+  [[nodiscard]] std::optional<std::int64_t> ports_of_peers() const;
   /// Processes of a host that find an index in this domain; nothing: all do.
   [[nodiscard]] std::optional<std::int64_t> participants_of_a_host() const;
 
   [[nodiscard]] const auto& all() const { return readings_; }
 
   CycloneVersion version = CycloneVersion::of_0_10;
-  std::vector<CycloneReading> peers;  ///< every address
+  std::vector<CycloneReading> peers;         ///< every address
+  std::vector<CycloneReading> prune_delays;  ///< of peers, of 11
   std::vector<CycloneInterface> interfaces;
 
  private:

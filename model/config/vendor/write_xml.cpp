@@ -390,7 +390,9 @@ void write_cyclone_discovery(XmlWriter& xml, const Changes& changes) {
   const std::int64_t* period = changes.find("spdp.period");
   std::optional<std::int64_t> lease = changes.duration("spdp.lease");
   const auto participants = changes.participants_of_a_host();
-  if (period == nullptr && !lease && !participants) return;
+  const auto initial = changes.duration("spdp.initial_prune_delay");
+  const auto discovered = changes.duration("spdp.discovered_prune_delay");
+  if (period == nullptr && !lease && !participants && !initial && !discovered) return;
   xml.open("Discovery");
   if (period != nullptr) {
     xml.comment("time between announcements");
@@ -406,6 +408,11 @@ void write_cyclone_discovery(XmlWriter& xml, const Changes& changes) {
     xml.leaf("ParticipantIndex", "auto");
     xml.leaf("MaxAutoParticipantIndex", fmt::format("{}", *participants));
   }
+  if (initial || discovered) {
+    xml.comment("of 11.0 and later: how long addresses at which nobody is known are announced to");
+  }
+  if (initial) xml.leaf("InitialLocatorPruneDelay", print_cyclone_duration(*initial));
+  if (discovered) xml.leaf("DiscoveredLocatorPruneDelay", print_cyclone_duration(*discovered));
   xml.close();
 }
 

@@ -199,7 +199,7 @@ TEST(LintReport, settings_of_one_line_are_each_a_remark) {
   const std::string path = testing::TempDir() + "one_line.xml";
   std::ofstream{path} << "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast>"
                          "</General><Discovery><ParticipantIndex>auto</"
-                         "ParticipantIndex><Peers><Peer Address='10.0.0.1'/></Peers>"
+                         "ParticipantIndex><Peers><Peer Address='10.0.0.1:7410'/></Peers>"
                          "</Discovery></Domain></CycloneDDS>";
   const LintedFile linted = lint_profile(path, specs);
   EXPECT_EQ(std::ranges::count(linted.remarks, "unmodelled", &config::vendor::Remark::rule), 2);

@@ -105,6 +105,22 @@ TEST(CycloneLint, the_base_decides_which_version_reads) {
   EXPECT_EQ(remarks(read(peers)),
             (Remarks{"error cyclonedds.other-version 2", "error cyclonedds.other-version 2"}));
   EXPECT_EQ(remarks(of_11(peers)), Remarks{});
+  const VendorProfile reachable = of_11(peers);
+  ASSERT_NE(reachable.changes.find("peers"), nullptr);
+  EXPECT_EQ(reachable.changes.find("peers")->text, "100");
+  // How long addresses at which nobody is known are announced to, of each peer or of all.
+  EXPECT_TRUE(change(of_11(peers), "spdp", "initial_prune_delay").starts_with("1000000s@"));
+  EXPECT_TRUE(change(of_11(discovery("<InitialLocatorPruneDelay>5 s</InitialLocatorPruneDelay>")),
+                     "spdp", "initial_prune_delay")
+                  .starts_with("5s@"));
+  EXPECT_TRUE(
+      change(of_11(discovery("<DiscoveredLocatorPruneDelay>inf</DiscoveredLocatorPruneDelay>")),
+             "spdp", "discovered_prune_delay")
+          .starts_with("1000000s@"));
+  const VendorProfile differing =
+      of_11(discovery("<Peers><Peer Address=\"192.0.2.10\" PruneDelay=\"inf\"/>"
+                      "<Peer Address=\"192.0.2.11\" PruneDelay=\"5 s\"/></Peers>"));
+  EXPECT_NE(change(differing, "unmodelled", "Discovery/Peers/Peer[@PruneDelay]"), "-");
   // An interval that is set counts, whatever the lease.
   const std::string interval = discovery("<SPDPInterval>60s</SPDPInterval>");
   EXPECT_TRUE(change(of_11(interval), "spdp", "period").starts_with("60s@"));

@@ -162,11 +162,28 @@ TEST(CycloneXml, multicast) {
   EXPECT_EQ(effect("false"), "outside, error cyclonedds.no-announcements 2");
   EXPECT_EQ(effect("ssm"), "outside, error cyclonedds.no-announcements 2");
   const char* peers = "<Peers><Peer Address=\"10.0.0.2\"/></Peers>";
-  EXPECT_EQ(effect("false", peers), "unmodelled, warning cyclonedds.participant-index 2");
+  EXPECT_EQ(effect("false", peers), "knob, warning cyclonedds.participant-index 2");
   EXPECT_EQ(effect("false",
                    "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer "
                    "address=\"10.0.0.2\"/></Peers>"),
-            "unmodelled, note cyclonedds.participant-limit 2");
+            "knob, note cyclonedds.participant-limit 2");
+}
+
+/// Hosts without ports are announced to at as many as participants may have.
+TEST(CycloneXml, peers_are_ports_of_other_hosts) {
+  const std::string hosts = "<Peers><Peer Address=\"a\"/><Peer Address=\"192.0.2.1\"/></Peers>";
+  const DdsProfile beside = resolved(discovery(hosts));
+  EXPECT_EQ(beside.peers, 9U);
+  EXPECT_EQ(beside.allow_multicast, preset().allow_multicast);
+  const std::string most = "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>";
+  EXPECT_EQ(resolved(discovery(most + hosts)).peers, 32U);
+  const DdsProfile alone = resolved(domain(fmt::format(
+      "<General><AllowMulticast>false</AllowMulticast></General><Discovery><ParticipantIndex>auto"
+      "</ParticipantIndex>{}</Discovery>",
+      hosts)));
+  EXPECT_EQ(alone.peers, 9U);
+  EXPECT_EQ(alone.allow_multicast, AllowMulticast::never);
+  EXPECT_EQ(alone.unmodelled, preset().unmodelled);
 }
 
 TEST(CycloneXml, peers_are_listed_together) {
@@ -213,7 +230,8 @@ TEST(CycloneXml, an_interface_without_multicast) {
     EXPECT_EQ(found(reachable), "note cyclonedds.participant-limit 2") << interfaces;
     ASSERT_NE(reachable.changes.find("max_participants_per_host"), nullptr);
     EXPECT_EQ(reachable.changes.find("max_participants_per_host")->text, "9");
-    EXPECT_EQ(reachable.changes.find("allow_multicast")->text, "spdp");
+    EXPECT_EQ(reachable.changes.find("allow_multicast")->text, "false");
+    EXPECT_EQ(reachable.changes.find("peers")->text, "9");
   }
   EXPECT_EQ(found(read(text("<NetworkInterface name=\"wlan0\" multicast=\"true\"/>"))), "");
 }

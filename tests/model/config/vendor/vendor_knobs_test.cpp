@@ -130,8 +130,8 @@ TEST(VendorKnobs, say_why_or_where) {
 
 TEST(VendorKnobs, ranges_lie_within_those_of_the_model) {
   std::set<std::pair<Vendor, std::string_view>> seen;
-  for (const std::string name :
-       {"fastdds-2.6.11", "fastdds-server-2.6.11", "fastdds-static-2.6.11", "cyclonedds-0.10"}) {
+  for (const std::string name : {"fastdds-2.6.11", "fastdds-server-2.6.11", "fastdds-static-2.6.11",
+                                 "cyclonedds-0.10", "cyclonedds-11"}) {
     Scenario scenario;
     scenario.dds = preset(name);
     const std::vector<NumericKnob> numbers = numeric_knobs(scenario);
