@@ -200,6 +200,10 @@ def main() -> int:
     parser.add_argument("--node", type=Path)
     parser.add_argument("--only-links", action="store_true")
     given = parser.parse_args()
+    absent = [] if given.only_links else [name for name in ("mkdocs", "doxygen") if not shutil.which(name)]
+    if absent:
+        sys.exit(f"site: {' and '.join(absent)} {'is' if len(absent) == 1 else 'are'} not installed; "
+                 "on Debian: apt-get install mkdocs mkdocs-material doxygen")
     source, output = given.source.resolve(), given.output.resolve()
     work = output.with_name(output.name + ".work")
     shutil.rmtree(work, ignore_errors=True)
