@@ -33,7 +33,9 @@ void check(const capture::Conversation& conversation) {
   for (const capture::TrafficFigures& one : counting.traffic) {
     submessages += one.data + one.data_frag + one.heartbeat + one.acknack + one.gap;
   }
-  require(submessages == conversation.events.size(), "every event is in the traffic");
+  std::uint64_t user_data = 0;
+  for (const capture::DatagramRecord& one : conversation.datagrams) user_data += one.user.data;
+  require(submessages == conversation.events.size() + user_data, "every event is in the traffic");
   require(counting.counts.total() + counting.same_host.total() <= submessages,
           "no event counts twice");
   require(counting.missing_count <= counting.required, "what is missing was required");

@@ -27,19 +27,35 @@ using model::config::Result;
 /// Everything that was read, before captures are merged.
 struct Reading {
   std::vector<CaptureInfo> captures{};
-  std::vector<DatagramRecord> datagrams{};
+  std::deque<DatagramRecord> datagrams{};
   std::vector<Sighting> sightings{};  ///< one for each datagram, of several captures
   bool is_alone = false;              ///< one capture: nothing to merge
   Extraction extraction{};
+  Igmp igmp{};
   Remarks remarks{};
   std::uint64_t packets = 0;
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   std::int64_t last_ns = std::numeric_limits<std::int64_t>::min();
+
+  /// What everything that grows with the captures takes, about, in bytes; with what `conform` keeps
+  /// beside each event.
+  [[nodiscard]] std::size_t memory() const {
+    constexpr std::size_t beside_event = 128;
+    const std::size_t kept = extraction.events.size() * (sizeof(Event) + beside_event) +
+                             extraction.descriptions.size() * sizeof(Description) +
+                             datagrams.size() * sizeof(DatagramRecord) +
+                             sightings.size() * sizeof(Sighting);
+    return kept / 10 * 11;  // lists have room to grow
+  }
 };
+
+/// What may be kept of all captures together, so that 500 MB are enough for whoever looks at them.
+/// The rest of a longer capture is not read: it answers as if it had ended there.
+constexpr std::size_t most_memory = 400'000'000;
 
 void add_datagram(const Datagram& datagram, Reading& reading) {
   CaptureInfo& info = reading.captures.back();
-  const auto capture = static_cast<std::uint32_t>(reading.captures.size() - 1);
+  const auto capture = static_cast<std::uint16_t>(reading.captures.size() - 1);
   const auto index = static_cast<std::uint32_t>(reading.datagrams.size());
   const std::string place = fmt::format("{}, packet {}", info.name, datagram.packet);
   const auto message = extract(datagram, index, place, reading.extraction, reading.remarks);
@@ -50,12 +66,13 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
     ++info.multicast_sources[datagram.source.address];
   }
   reading.datagrams.push_back({.time_ns = datagram.time_ns,
-                               .capture = capture,
                                .packet = datagram.packet,
-                               .frames = datagram.frames,
-                               .wire_bytes = datagram.wire_bytes,
+                               .wire_bytes = static_cast<std::uint32_t>(datagram.wire_bytes),
                                .payload_bytes = static_cast<std::uint32_t>(datagram.payload.size()),
                                .statistics_bytes = message->statistics_bytes,
+                               .user = message->user,
+                               .capture = capture,
+                               .frames = static_cast<std::uint16_t>(datagram.frames),
                                .vendor = message->vendor,
                                .time_to_live = datagram.time_to_live,
                                .source = datagram.source,
@@ -89,7 +106,7 @@ bool is_of_zenoh(Bytes packet) {
 
 /// The datagram that this frame completes, if it is not one that was there before.
 std::optional<Datagram> datagram_in(const Packet& packet, CaptureFile& file,
-                                    RepeatedPackets& repeated, IpReassembly& reassembly,
+                                    RepeatedPackets& repeated, IpReassembly& reassembly, Igmp& igmp,
                                     Remarks& remarks) {
   const auto ip = ip_packet(packet.bytes, file.link_type());
   if (!ip) return std::nullopt;
@@ -101,6 +118,7 @@ std::optional<Datagram> datagram_in(const Packet& packet, CaptureFile& file,
     return std::nullopt;
   }
   if (is_of_zenoh(*ip)) remark("packets of Zenoh, which is no RTPS");
+  add_igmp(*ip, igmp);
   return reassembly.add(packet, *ip);
 }
 
@@ -130,8 +148,9 @@ class Clock {
   std::int64_t doubtful_ = never;
 };
 
-/// False if the reading was interrupted.
-bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress) {
+/// False if the reading was interrupted. `memory`: of everything that was read by then, at most.
+bool read_packets(CaptureFile& file, Reading& reading, std::size_t memory,
+                  const Progress& progress) {
   constexpr std::uint64_t packets_between_reports = 4096;
   reading.captures.push_back({.name = file.name()});
   IpReassembly reassembly{file.name(), reading.remarks};
@@ -151,8 +170,14 @@ bool read_packets(CaptureFile& file, Reading& reading, const Progress& progress)
     }
     reading.first_ns = std::min(reading.first_ns, packet->time_ns);
     reading.last_ns = std::max(reading.last_ns, packet->time_ns);
-    const auto datagram = datagram_in(*packet, file, repeated, reassembly, reading.remarks);
+    const auto datagram =
+        datagram_in(*packet, file, repeated, reassembly, reading.igmp, reading.remarks);
     if (datagram) add_datagram(*datagram, reading);
+    if (reading.memory() > memory) {
+      reading.remarks.add("captures with more than is kept, used up to there",
+                          fmt::format("{}, after packet {}", file.name(), packet->number));
+      break;
+    }
     if (++reading.packets % packets_between_reports == 0 && progress) {
       goes_on = progress(reading.packets);
     }
@@ -191,14 +216,21 @@ TopologyBuilder describe(const Reading& reading, const std::vector<std::size_t>&
     const DatagramRecord& datagram = reading.datagrams[event.datagram];
     builder.saw_message(event.source, datagram.vendor, datagram.source.address, event.time_ns);
   }
+  for (const auto& [source, seen] : reading.extraction.user_sources) {
+    for (const std::uint32_t k : {seen.first, seen.second}) {
+      const DatagramRecord& datagram = reading.datagrams[k];
+      builder.saw_message(source.first, datagram.vendor, source.second, datagram.time_ns);
+    }
+  }
   for (const Description& one : reading.extraction.descriptions) {
     if (!counts[one.datagram]) continue;
     const std::int64_t time_ns = reading.datagrams[one.datagram].time_ns;
-    if (const auto* participant = std::get_if<ParticipantData>(&one.content)) {
+    const Content& content = reading.extraction.contents[one.content];
+    if (const auto* participant = std::get_if<ParticipantData>(&content)) {
       builder.saw_participant(one.source, *participant, time_ns);
     } else {
       builder.saw_endpoint(one.source, one.writer, one.sequence_number,
-                           std::get<EndpointData>(one.content), time_ns);
+                           std::get<EndpointData>(content), time_ns);
     }
   }
   return builder;
@@ -207,7 +239,7 @@ TopologyBuilder describe(const Reading& reading, const std::vector<std::size_t>&
 /// Takes the datagrams that count, and their events, in the order of time. If they are in order and
 /// all count, nothing is copied: a large capture is in memory once.
 void fill(Conversation& conversation, Reading& reading, const std::vector<std::size_t>& order) {
-  std::vector<Event>& events = reading.extraction.events;
+  std::deque<Event>& events = reading.extraction.events;
   conversation.lookups = std::move(reading.extraction.lookups);
   const bool is_all = order.size() == reading.datagrams.size();
   if (is_all && std::ranges::is_sorted(order)) {
@@ -261,6 +293,7 @@ Result<Conversation> converse(Reading reading) {
   fill(conversation, reading, order);
   address(conversation, builder);
   conversation.captures = std::move(reading.captures);
+  conversation.igmp = std::move(reading.igmp);
   conversation.remarks = reading.remarks.list();
   conversation.first_ns = reading.first_ns;
   conversation.last_ns = reading.last_ns;
@@ -276,7 +309,9 @@ Result<Conversation> read_conversation(std::span<const std::string> files,
   for (const std::string& path : files) {
     auto file = CaptureFile::open(path);
     if (!file) return file.error();
-    if (!read_packets(*file, reading, progress)) break;
+    // None takes what the others need.
+    const std::size_t memory = most_memory / files.size() * (reading.captures.size() + 1);
+    if (!read_packets(*file, reading, memory, progress)) break;
   }
   return converse(std::move(reading));
 }
@@ -287,7 +322,7 @@ Result<Conversation> read_conversation(std::span<const MemoryCapture> captures) 
   for (const MemoryCapture& capture : captures) {
     auto file = CaptureFile::from_memory(capture.name, capture.content, capture.unpack_limit);
     if (!file) return file.error();
-    read_packets(*file, reading, {});
+    read_packets(*file, reading, most_memory, {});
   }
   return converse(std::move(reading));
 }

@@ -24,6 +24,7 @@ class Counter {
     std::array<std::uint32_t, message_class_count> in_datagram{};
     std::uint32_t data = 0;
     const std::uint64_t lookups = counting_.lookup_messages();
+    add_user(datagram.user);
     for (std::size_t k = first; k < last; ++k) {
       const Event& event = conversation_.events[k];
       add_traffic(event);
@@ -46,7 +47,8 @@ class Counter {
       if (in_datagram[k] == 1) ++counting_.sizes[k].single[datagram.payload_bytes];
     }
     if (data > 0) ++counting_.data_per_datagram[data];
-    if (last > first && counting_.lookup_messages() - lookups == last - first) {
+    if (last > first && datagram.user.data == 0 &&
+        counting_.lookup_messages() - lookups == last - first) {
       ++counting_.lookup_datagrams;
     }
     counting_.statistics_bytes += datagram.statistics_bytes;
@@ -56,6 +58,13 @@ class Counter {
   }
 
  private:
+  void add_user(const UserData& user) {
+    TrafficFigures& figures = counting_.traffic[static_cast<std::size_t>(Traffic::user)];
+    figures.bytes += user.bytes;
+    figures.data += user.data - user.fragments;
+    figures.data_frag += user.fragments;
+  }
+
   void add_traffic(const Event& event) {
     TrafficFigures& figures = counting_.traffic[static_cast<std::size_t>(event.traffic())];
     figures.bytes += event.bytes;
@@ -143,7 +152,7 @@ class Counter {
     const HeartbeatEvent& heartbeat = *event.heartbeat();
     HeartbeatFigures& figures = counting_.heartbeats;
     const HeartbeatKind kind = classifier_.classify(event, vendor, is_behind_data);
-    counting_.kinds.emplace_hint(counting_.kinds.end(), index, kind);
+    counting_.kinds.emplace_back(index, kind);
     ++figures.by_kind[static_cast<std::size_t>(kind)];
     if (is_behind_data) ++figures.behind_data;
     if (!event.has_info_dst) ++figures.no_info_dst;

@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "checker/evidence/capture/events.hpp"
@@ -143,8 +144,8 @@ struct Counting {
   }
   /// Of each event before the cut; nothing if it is in no count.
   std::vector<std::optional<MessageClass>> classes{};
-  /// Kind of each SEDP HEARTBEAT, by event index.
-  std::map<std::size_t, HeartbeatKind> kinds{};
+  /// Kind of each SEDP HEARTBEAT, with its event index, in their order.
+  std::vector<std::pair<std::size_t, HeartbeatKind>> kinds{};
 };
 
 [[nodiscard]] Counting count(const Conversation& conversation, std::int64_t until_ns);

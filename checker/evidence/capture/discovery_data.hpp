@@ -29,6 +29,8 @@ struct ParticipantData {
   std::string machine{};
   std::optional<std::uint32_t> domain{};  ///< if it says one
   std::optional<std::int64_t> lease_ns{};
+
+  bool operator==(const ParticipantData&) const = default;
 };
 
 /// DATA(w) or DATA(r).
@@ -40,6 +42,8 @@ struct EndpointData {
   bool has_type_information = false;  ///< hashes by which its type can be looked up
   std::optional<TypeHash> type_hash{};
   bool is_gone = false;  ///< disposed or unregistered
+
+  bool operator==(const EndpointData&) const = default;
 };
 
 /// Nothing if the payload is no parameter list, or breaks off.

@@ -4,10 +4,13 @@
 //
 // The paper's trace processing: source-side captures are merged without counting a datagram twice;
 // each contained submessage is an event of its own; a datagram that goes to several participants
-// has one event for each unicast copy, because each copy is a datagram in the capture.
+// has one event for each unicast copy, because each copy is a datagram in the capture. What robots
+// tell each other when they know each other, DATA of their own topics, is most of a long capture
+// and nothing of discovery: it is counted with its datagram and is no event.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -19,6 +22,7 @@
 #include "checker/evidence/capture/address.hpp"
 #include "checker/evidence/capture/discovery_data.hpp"
 #include "checker/evidence/capture/identifiers.hpp"
+#include "checker/evidence/capture/igmp.hpp"
 #include "checker/evidence/capture/remarks.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
 #include "checker/evidence/capture/topology.hpp"
@@ -88,17 +92,25 @@ struct Event {
   return data.endpoint && data.endpoint->prefix != event.source;
 }
 
+/// DATA of users' topics in one datagram.
+struct UserData {
+  std::uint32_t bytes = 0;      ///< of the submessages, with their headers
+  std::uint16_t data = 0;       ///< submessages: at most 65,535 bytes of at least 4
+  std::uint16_t fragments = 0;  ///< of them, DATA_FRAG
+};
+
 /// A datagram with an RTPS message.
 struct DatagramRecord {
   std::int64_t time_ns = 0;
-  std::uint32_t capture = 0;  ///< index in Conversation::captures
-  std::uint64_t packet = 0;   ///< the packet that completed it, from 1 on
-  std::uint32_t frames = 0;
-  std::uint64_t wire_bytes = 0;        ///< of all its frames, with link headers
+  std::uint64_t packet = 0;            ///< the packet that completed it, from 1 on
+  std::uint32_t wire_bytes = 0;        ///< of all its frames, with link headers
   std::uint32_t payload_bytes = 0;     ///< of UDP
   std::uint32_t statistics_bytes = 0;  ///< of these, for statistics of the vendor
-  VendorId vendor = 0;                 ///< of the message's header
-  std::uint8_t time_to_live = 0;       ///< as captured; 0: it does not leave its host
+  UserData user{};
+  std::uint16_t capture = 0;  ///< index in Conversation::captures
+  std::uint16_t frames = 0;
+  VendorId vendor = 0;            ///< of the message's header
+  std::uint8_t time_to_live = 0;  ///< as captured; 0: it does not leave its host
   UdpEnd source{};
   UdpEnd destination{};
 };
@@ -114,10 +126,11 @@ struct CaptureInfo {
 
 struct Conversation {
   std::vector<CaptureInfo> captures{};
-  std::vector<DatagramRecord> datagrams{};  ///< in time order
-  std::vector<Event> events{};              ///< in time order, then as in the datagram
+  std::deque<DatagramRecord> datagrams{};  ///< in time order
+  std::deque<Event> events{};              ///< in time order, then as in the datagram
   Topology topology{};
   TypeLookups lookups{};  ///< what questions about types and answers say
+  Igmp igmp{};
   std::vector<Remark> remarks{};
   std::int64_t first_ns = 0;  ///< time of the first packet of all captures
   std::int64_t last_ns = 0;   ///< of the last one

@@ -1,6 +1,8 @@
 // The receiver of an RTPS message, and the events that it hands out.
 #include "checker/evidence/capture/message_events.hpp"
 
+#include "checker/evidence/capture/merge.hpp"
+
 namespace stormproof::capture {
 
 namespace {
@@ -9,7 +11,7 @@ class Receiver {
  public:
   Receiver(const Datagram& datagram, std::uint32_t index, const GuidPrefix& source,
            const std::string& place, Extraction& extraction, Remarks& remarks)
-      : place_{place}, extraction_{extraction}, remarks_{remarks} {
+      : place_{place}, from_{datagram.source.address}, extraction_{extraction}, remarks_{remarks} {
     event_.time_ns = datagram.time_ns;
     event_.datagram = index;
     event_.source = source;
@@ -17,7 +19,7 @@ class Receiver {
   }
 
   void receive(const Submessage& submessage) {
-    if (has_writer(submessage.id) && !has_room()) return;
+    if (has_writer(submessage.id) && !has_room_for(event_.source)) return;
     switch (submessage.id) {
       case SubmessageId::info_dst:
       case SubmessageId::info_src:
@@ -36,19 +38,12 @@ class Receiver {
     }
   }
 
+  [[nodiscard]] const UserData& user() const { return user_; }
+
  private:
   static bool has_writer(SubmessageId id) {
     return id == SubmessageId::data || id == SubmessageId::data_frag ||
            id == SubmessageId::heartbeat || id == SubmessageId::acknack || id == SubmessageId::gap;
-  }
-
-  /// Whether one more event of the present source is within the limits.
-  bool has_room() {
-    if (extraction_.events.size() >= extraction_.limits.events) {
-      remarks_.add("submessages beyond the most that are looked at", place_);
-      return false;
-    }
-    return has_room_for(event_.source);
   }
 
   bool has_room_for(const GuidPrefix& participant) {
@@ -80,6 +75,7 @@ class Receiver {
     content.sequence_number = data->sequence_number;
     content.fragment = data->fragment;
     const Traffic traffic = traffic_of(data->writer);
+    if (traffic == Traffic::user) return add_user(submessage, data->fragment != 0);
     if (data->fragment != 0) {
       if (traffic == Traffic::sedp) {
         remarks_.add("SEDP samples in fragments (DATA_FRAG), counted apart from DATA", place_);
@@ -104,7 +100,7 @@ class Receiver {
     content.participant = participant->prefix;
     // A Discovery Server tells of others, who may be in no message of their own.
     if (participant->prefix && !has_room_for(*participant->prefix)) return;
-    describe(data, std::move(*participant));
+    describe(data, Content{std::move(*participant)});
   }
 
   void describe_endpoint(const DataSubmessage& data, ByteOrder order, DataEvent& content) {
@@ -112,13 +108,22 @@ class Receiver {
     if (!endpoint || !data.inline_qos_is_valid) return unreadable();
     content.endpoint = endpoint->endpoint;
     content.is_gone = endpoint->is_gone;
-    describe(data, std::move(*endpoint));
+    describe(data, Content{std::move(*endpoint)});
   }
 
-  template <class Content>
   void describe(const DataSubmessage& data, Content content) {
+    const std::uint32_t number = extraction_.contents.number_of(data.payload, std::move(content));
     extraction_.descriptions.push_back(
-        {event_.datagram, event_.source, data.writer, data.sequence_number, std::move(content)});
+        {event_.datagram, number, event_.source, data.writer, data.sequence_number});
+  }
+
+  void add_user(const Submessage& submessage, bool is_fragment) {
+    ++user_.data;
+    if (is_fragment) ++user_.fragments;
+    user_.bytes += static_cast<std::uint32_t>(submessage.size);
+    const std::pair only{event_.datagram, event_.datagram};
+    extraction_.user_sources.try_emplace({event_.source, from_}, only).first->second.second =
+        event_.datagram;
   }
 
   void heartbeat(const Submessage& submessage) {
@@ -168,12 +173,26 @@ class Receiver {
   }
 
   const std::string& place_;
+  const Address& from_;
   Extraction& extraction_;
   Remarks& remarks_;
   Event event_;  ///< what the events of this message have in common
+  UserData user_;
 };
 
 }  // namespace
+
+std::uint32_t Contents::number_of(Bytes payload, Content content) {
+  const std::uint64_t digest = digest_of(payload);
+  const auto [first, last] = by_digest_.equal_range(digest);
+  for (auto known = first; known != last; ++known) {
+    if (all_[known->second] == content) return known->second;
+  }
+  const auto number = static_cast<std::uint32_t>(all_.size());
+  all_.push_back(std::move(content));
+  by_digest_.emplace(digest, number);
+  return number;
+}
 
 std::optional<Extracted> extract(const Datagram& datagram, std::uint32_t index,
                                  const std::string& place, Extraction& extraction,
@@ -191,6 +210,7 @@ std::optional<Extracted> extract(const Datagram& datagram, std::uint32_t index,
       extracted.statistics_bytes += static_cast<std::uint32_t>(submessage->size);
     }
   }
+  extracted.user = receiver.user();
   if (submessages.is_cut()) remarks.add("RTPS messages that end inside a submessage", place);
   return extracted;
 }

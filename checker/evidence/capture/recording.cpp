@@ -53,9 +53,9 @@ model::config::Result<std::uint64_t> record(
   if (const int status = pcap_activate(handle.get()); status < 0) {
     return refused(recording.interface, status, pcap_geterr(handle.get()));
   }
-  // Fragments other than the first have no ports, but are UDP.
+  // Fragments other than the first have no ports, but are UDP. IGMP says who listens to a group.
   bpf_program filter{};
-  if (pcap_compile(handle.get(), &filter, "udp or (ip6 and ip6[6] == 44)", 1,
+  if (pcap_compile(handle.get(), &filter, "udp or igmp or (ip6 and ip6[6] == 44)", 1,
                    PCAP_NETMASK_UNKNOWN) == 0) {
     pcap_setfilter(handle.get(), &filter);
     pcap_freecode(&filter);

@@ -63,6 +63,7 @@ void TopologyBuilder::saw_message(const GuidPrefix& source, VendorId vendor, con
     participant.vendor = vendor;
   }
   participant.first_ns = std::min(participant.first_ns, time_ns);
+  participant.last_ns = std::max(participant.last_ns, time_ns);
   participant.addresses.insert(from);
 }
 

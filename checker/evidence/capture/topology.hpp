@@ -43,6 +43,7 @@ struct Participant {
   std::size_t host = 0;
   /// When its first message was sent; if there is none, when a Discovery Server told of it first.
   std::int64_t first_ns = 0;
+  std::int64_t last_ns = 0;              ///< of its last message, with whatever content
   std::set<Address> addresses{};         ///< that its messages came from; without one, announced
   std::set<UdpEnd> locators{};           ///< metatraffic unicast, as announced
   std::map<Guid, Endpoint> endpoints{};  ///< by GUID, from its SEDP DATA

@@ -275,9 +275,12 @@ std::optional<std::int64_t> Dialogue::first_announced(std::size_t from, std::siz
 std::optional<Announcement> Dialogue::last_sign_of(std::size_t participant) const {
   const auto& events = conversation.events;
   const capture::GuidPrefix& self = conversation.topology.participants[participant].prefix;
+  const std::int64_t last_ns = conversation.topology.participants[participant].last_ns;
   for (std::size_t k = events.size(); k-- > 0;) {
     if (events[k].source == self && events[k].time_ns <= end_ns) {
-      return Announcement{events[k].time_ns, k, {}};
+      // DATA of its topics are signs, too, and no events.
+      const std::int64_t time_ns = last_ns <= end_ns ? last_ns : events[k].time_ns;
+      return Announcement{std::max(time_ns, events[k].time_ns), k, {}};
     }
   }
   return std::nullopt;
@@ -309,6 +312,13 @@ Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, Sorti
     }
     dialogue.end_ns = event.time_ns;
     sorter.add(k);
+  }
+  for (const capture::DatagramRecord& one : conversation.datagrams) {
+    const bool is_after =
+        dialogue.ends_early ? one.time_ns > dialogue.end_ns : one.time_ns > until_ns;
+    if (is_after || one.user.data == 0) continue;
+    dialogue.end_ns = std::max(dialogue.end_ns, one.time_ns);
+    dialogue.not_checked += one.user.data;
   }
   sorter.finish();
   return dialogue;

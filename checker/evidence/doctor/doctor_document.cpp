@@ -175,7 +175,7 @@ Section messages(const Report& report) {
 model::Counts of_last_second(const Report& report, std::int64_t now_ns) {
   constexpr std::int64_t second = 1'000'000'000;
   model::Counts counts;
-  const std::vector<capture::Event>& events = report.conversation.events;
+  const auto& events = report.conversation.events;
   for (std::size_t k = report.counting.classes.size(); k-- > 0;) {
     const bool is_later = events[k].time_ns > now_ns;
     if (!is_later && events[k].time_ns <= now_ns - second) break;

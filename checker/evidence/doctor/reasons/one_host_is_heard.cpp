@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/doctor/reasons/listeners.hpp"
 #include "checker/evidence/doctor/reasons/reasons.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
@@ -55,13 +56,14 @@ void told_apart_by_captures(const Contacts& contacts, std::vector<Reason>& found
   found.push_back(
       {"multicast_filtered",
        fmt::format("each of the {} captures has announcements of its own host only, and nobody "
-                   "answers another host: {}",
+                   "answers another host: {}{}",
                    conversation.captures.size(),
                    unicast_crosses ? "unicast arrives and multicast does not, so multicast is "
                                      "filtered (IGMP snooping without a querier, or the access "
                                      "point)"
                                    : "nothing arrives of what the others send (client isolation, a "
-                                     "firewall, or not the same network)"),
+                                     "firewall, or not the same network)",
+                   listeners(contacts).text),
        unicast_crosses ? 0.9 : 0.7, how_to_tell});
 }
 
@@ -95,14 +97,14 @@ void one_host_is_heard(const Contacts& contacts, std::vector<Reason>& found) {
   }
   // Participants of one host that discover each other are a system of one host, which is complete.
   if (contacts.counting().required > 0 && contacts.counting().missing_count == 0) return;
+  const Listeners igmp = listeners(contacts);
   found.push_back(
       {"one_host",
        fmt::format("{}: no other host's announcements arrive where it was captured, and "
                    "it answers nobody. Multicast is filtered between them (IGMP snooping "
-                   "without a querier, client isolation, a firewall), or nothing else "
-                   "runs",
-                   who),
-       0.6, how_to_tell});
+                   "without a querier, client isolation, a firewall){}{}",
+                   who, igmp.others_listen ? "" : ", or nothing else runs", igmp.text),
+       igmp.others_listen ? 0.9 : 0.6, how_to_tell});
 }
 
 }  // namespace stormproof::doctor

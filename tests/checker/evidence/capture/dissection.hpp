@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "checker/evidence/capture/bytes.hpp"
+#include "checker/evidence/capture/identifiers.hpp"
 
 namespace stormproof::capture::testing {
 
@@ -26,6 +27,12 @@ struct DissectedSubmessage {
   std::string bits{};  ///< "1101…", a digit for each of them
   std::uint32_t count = 0;
 
+  /// DATA or DATA_FRAG of a user's topic, which is no event.
+  [[nodiscard]] bool is_user_data() const {
+    return (id == 0x15 || id == 0x16) &&
+           traffic_of(static_cast<EntityId>(std::stoul(writer, nullptr, 16))) == Traffic::user;
+  }
+
   bool operator==(const DissectedSubmessage&) const = default;
 };
 
@@ -38,6 +45,7 @@ struct DissectedDatagram {
   std::uint64_t wire_bytes = 0;  ///< of all of them, with link headers
   std::uint32_t info_dst = 0;    ///< submessages
   std::vector<DissectedSubmessage> submessages{};
+  std::uint32_t user_data = 0;  ///< submessages that are not among these
 
   [[nodiscard]] bool is_multicast() const { return to.starts_with("239."); }
 };

@@ -53,7 +53,7 @@ class TsharkCounter {
     if (one.writer == "0x000003c2" || one.writer == "0x000004c2") traffic = "sedp";
     ++figures_[traffic + " " + kinds[one.id]];
     figures_[traffic + " bytes"] += one.bytes;
-    if (!one.destination.empty()) ++figures_["with INFO_DST"];
+    if (!one.destination.empty() && !one.is_user_data()) ++figures_["with INFO_DST"];
   }
 
   /// 1 if it is SEDP DATA that goes to another host.

@@ -168,6 +168,20 @@ Buffer ipv6(const Route& route, Bytes payload) {
   return out.bytes(datagram).buffer();
 }
 
+Buffer igmp(std::uint8_t host, Bytes body) {
+  constexpr std::size_t protocol_at = 9;
+  constexpr std::uint8_t protocol = 2;
+  Buffer packet = ipv4_fragment({at(host, 0), multicast()}, body, 0, body.size(), false);
+  packet[protocol_at] = protocol;
+  return packet;
+}
+
+Buffer igmp_message(std::uint8_t host, std::uint8_t type) {
+  Writer body;
+  body.u8(type).u8(0).u16(0).bytes(part(multicast().address.bytes, 12));
+  return igmp(host, body.buffer());
+}
+
 Buffer ethernet(Bytes ip, std::uint16_t type) {
   Writer out;
   out.u32(0).u32(0).u32(0).u16(type);

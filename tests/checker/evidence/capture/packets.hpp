@@ -89,6 +89,9 @@ struct Route {
                                    std::size_t length, bool more);
 [[nodiscard]] Buffer ipv4(const Route& route, Bytes payload);
 [[nodiscard]] Buffer ipv6(const Route& route, Bytes payload);
+/// IGMP from 10.0.0.`host`, with any body; and a message of version 1 or 2 about 239.255.0.1.
+[[nodiscard]] Buffer igmp(std::uint8_t host, Bytes body);
+[[nodiscard]] Buffer igmp_message(std::uint8_t host, std::uint8_t type);
 [[nodiscard]] Buffer ethernet(Bytes ip, std::uint16_t type = 0x0800);
 
 /// A pcap file under construction.

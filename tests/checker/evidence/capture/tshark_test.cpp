@@ -122,6 +122,7 @@ std::size_t differences(const Conversation& conversation, const Dissection& diss
     one.payload_bytes = record.payload_bytes;
     one.frames = record.frames;
     one.wire_bytes = record.wire_bytes;
+    one.user_data = record.user.data;
   }
   for (const Event& event : conversation.events) {
     const std::uint64_t frame = conversation.datagrams[event.datagram].packet;
@@ -131,12 +132,21 @@ std::size_t differences(const Conversation& conversation, const Dissection& diss
   for (const auto& [frame, one] : dissection) {
     const DissectedDatagram mine = ours[frame];
     std::vector<DissectedSubmessage> submessages;
-    for (const auto& submessage : one.submessages) submessages.push_back(kept(submessage));
+    std::uint32_t user_data = 0;
+    for (const auto& submessage : one.submessages) {
+      if (submessage.is_user_data()) {
+        ++user_data;
+      } else {
+        submessages.push_back(kept(submessage));
+      }
+    }
     const auto rest = [](const DissectedDatagram& datagram) {
       return std::tie(datagram.from, datagram.to, datagram.port, datagram.payload_bytes,
                       datagram.frames, datagram.wire_bytes);
     };
-    if (submessages == mine.submessages && rest(one) == rest(mine)) continue;
+    if (submessages == mine.submessages && user_data == mine.user_data && rest(one) == rest(mine)) {
+      continue;
+    }
     if (different++ == 0) std::printf("the first is frame %llu\n", 1ULL * frame);
   }
   return different + ours.size() - dissection.size();

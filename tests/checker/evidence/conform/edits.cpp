@@ -60,8 +60,8 @@ std::size_t add(Conversation& conversation, Event event, std::int64_t time_ns) {
   const auto at =
       std::upper_bound(conversation.events.begin(), conversation.events.end(), time_ns,
                        [](std::int64_t time, const Event& other) { return time < other.time_ns; });
-  return static_cast<std::size_t>(conversation.events.insert(at, std::move(event)) -
-                                  conversation.events.begin());
+  const auto added = conversation.events.insert(at, std::move(event));
+  return static_cast<std::size_t>(added - conversation.events.begin());
 }
 
 }  // namespace stormproof::conform::testing

@@ -225,7 +225,7 @@ capture::Conversation cut(capture::Conversation conversation, std::int64_t from_
   });
   // Counting walks datagrams and their events together.
   std::vector<std::uint32_t> number(conversation.datagrams.size());
-  std::vector<capture::DatagramRecord> kept;
+  std::deque<capture::DatagramRecord> kept;
   for (std::size_t k = 0; k < conversation.datagrams.size(); ++k) {
     const std::int64_t at = conversation.datagrams[k].time_ns;
     number[k] = static_cast<std::uint32_t>(kept.size());

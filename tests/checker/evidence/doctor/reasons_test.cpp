@@ -64,6 +64,11 @@ class Built {
         .acknowledge(other, one, at_us + 30);
   }
 
+  Built& igmp(std::uint8_t who, std::uint8_t type, std::int64_t at_us) {
+    file_.frame(at_us, ethernet(igmp_message(who, type)));
+    return *this;
+  }
+
   [[nodiscard]] static UdpEnd home(std::uint8_t who) { return at(who, 7410); }
   [[nodiscard]] Conversation conversation() const { return conversation_of({file_.buffer()}); }
   [[nodiscard]] const PcapFile& file() const { return file_; }
@@ -192,6 +197,30 @@ TEST(Reasons, OnlyOneHostIsHeard) {
   const Report heard = examine(answering);
   ASSERT_NE(heard.what_keeps_apart(), nullptr);
   EXPECT_EQ(heard.what_keeps_apart()->id, "one_direction");
+}
+
+TEST(Reasons, IgmpTellsThatSomebodyListensAndWhetherAnybodyAsks) {
+  constexpr std::uint8_t query = 0x11;
+  constexpr std::uint8_t joins = 0x16;
+  const auto said = [](const Built& built) {
+    const Conversation conversation = built.conversation();
+    const Report report = examine(conversation);
+    const Reason* reason = find(report, "one_host");
+    return reason == nullptr ? Reason{} : *reason;
+  };
+  const Reason alone = said(Built{}.announce(1, 0).igmp(1, joins, 50).announce(1, 100));
+  EXPECT_EQ(alone.sentence.find("IGMP)"), std::string::npos) << alone.sentence;
+  const Reason joined = said(Built{}.announce(1, 0).igmp(2, joins, 50).announce(1, 100));
+  EXPECT_NE(joined.sentence.find("10.0.0.2 has joined 239.255.0.1"), std::string::npos)
+      << joined.sentence;
+  EXPECT_EQ(joined.sentence.find("nothing else runs"), std::string::npos) << joined.sentence;
+  EXPECT_GT(joined.probability, alone.probability);
+  const Reason asked = said(Built{}.announce(1, 0).igmp(9, query, 50).announce(1, 300 * second));
+  EXPECT_NE(asked.sentence.find("10.0.0.9 asks who listens"), std::string::npos) << asked.sentence;
+  const Reason never = said(Built{}.announce(1, 0).announce(1, 300 * second));
+  EXPECT_NE(never.sentence.find("nobody asked who listens (IGMP) within 300 seconds"),
+            std::string::npos)
+      << never.sentence;
 }
 
 TEST(Reasons, CapturesOfTwoHostsTellThatMulticastIsFiltered) {
