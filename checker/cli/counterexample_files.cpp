@@ -27,7 +27,7 @@ void write_counterexamples(OutputFolder& folder, const checker::CheckReport& rep
     if (const auto trace = write_counterexample(folder, *found, id)) {
       context.counterexamples.emplace(id, *trace);
     }
-    context.stories.emplace(id, counterexample::story(*found));
+    context.stories.emplace(id, counterexample::told(*found));
   }
 }
 

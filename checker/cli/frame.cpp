@@ -26,6 +26,7 @@
 #include "checker/presentation/json/describe.hpp"
 #include "checker/presentation/json/dumped.hpp"
 #include "checker/presentation/json/head.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "model/config/spec_path.hpp"
 
 namespace stormproof::cli {
@@ -308,7 +309,8 @@ class NarrowFormatter : public CLI::Formatter {
  public:
   std::string make_help(const CLI::App* app, std::string name,
                         CLI::AppFormatMode mode) const override {
-    return narrow_help(CLI::Formatter::make_help(app, std::move(name), mode));
+    const std::size_t columns = std::min(report::report_width, standard_output().columns);
+    return narrow_help(CLI::Formatter::make_help(app, std::move(name), mode), columns);
   }
 };
 

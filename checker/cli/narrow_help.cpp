@@ -7,7 +7,6 @@ namespace stormproof::cli {
 
 namespace {
 
-constexpr std::size_t widest = 100;
 /// Where the parser's descriptions of options begin.
 constexpr std::size_t description = 30;
 
@@ -22,18 +21,18 @@ std::size_t indent_of(const std::string& line) {
 
 }  // namespace
 
-std::string narrow_help(const std::string& help) {
+std::string narrow_help(const std::string& help, std::size_t columns) {
   std::istringstream lines{help};
   std::string narrow;
   for (std::string line; std::getline(lines, line);) {
     const std::size_t first = line.find_first_not_of(' ');
     const bool is_example =
         first != std::string::npos && line.substr(first).starts_with("stormproof ");
-    while (line.size() > widest && !is_example) {
+    while (line.size() > columns && !is_example) {
       const std::size_t indent = indent_of(line);
-      std::size_t blank = line.rfind(' ', widest);
+      std::size_t blank = line.rfind(' ', columns);
       if (blank == std::string::npos || blank <= indent) {  // a list of words
-        blank = line.rfind(',', widest - 1);
+        blank = line.rfind(',', columns - 1);
         if (blank != std::string::npos) line.insert(++blank, 1, ' ');
       }
       if (blank == std::string::npos || blank <= indent) break;

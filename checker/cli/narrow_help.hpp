@@ -2,11 +2,12 @@
 // below where they begin, while examples, which people copy, stay as they are.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace stormproof::cli {
 
-/// No line is wider than 100 columns, if it has a blank to be broken at and is no example.
-[[nodiscard]] std::string narrow_help(const std::string& help);
+/// No line is wider than `columns`, if it has a blank to be broken at and is no example.
+[[nodiscard]] std::string narrow_help(const std::string& help, std::size_t columns);
 
 }  // namespace stormproof::cli

@@ -70,7 +70,7 @@ void add_counterexample(report::Blocks& blocks, const Found& found, const std::s
   report::Sequence sequence = counterexample::walk(
       *found.counterexample, counterexample::chart_of(*found.counterexample), "chart-" + id,
       fmt::format("The shortest run that breaks {}", found.counterexample->property), machines);
-  sequence.story = counterexample::story(*found.counterexample);
+  sequence.story = counterexample::told(*found.counterexample);
   blocks.emplace_back(std::move(sequence));
 }
 

@@ -129,16 +129,19 @@ class Builder {
                        amount(options_.by, first.swing(options_.by)));
   }
 
+  /// Bars of blocks are for terminals; pages have a chart.
   void knobs() {
-    Table table{{{"knob"},
-                 {"from → to"},
-                 {"completion", to_right},
-                 {"messages", to_right},
-                 {"less", to_right},
-                 {std::string{"more "} + name_of(options_.by)},
-                 {report_.samples > 1 ? "interval" : "effect", to_right},
-                 {""}},
-                {}};
+    constexpr auto terminal = report::Audience::terminal;
+    Table table{
+        {{"knob"},
+         {"from → to"},
+         {"completion", to_right},
+         {"messages", to_right},
+         {"less", to_right, false, terminal},
+         {std::string{"more "} + name_of(options_.by), Column::Align::left, false, terminal},
+         {report_.samples > 1 ? "interval" : "effect", to_right},
+         {""}},
+        {}};
     table.wide = true;
     const double greatest = report_.knobs.front().swing(options_.by);
     std::size_t hidden = 0;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -146,13 +147,15 @@ struct Drawing {
   std::string machine = {};  ///< a state machine: its states are marked as steps are walked through
 };
 
+/// A text with its own line breaks, of at most so many columns where words allow it.
+using Story = std::function<std::string(std::size_t columns)>;
+
 /// A sequence chart: drawn on pages, Mermaid in Markdown, rows of text at a terminal.
 struct Sequence {
   sequence::Chart chart;
   std::string id;  ///< unique in the document
   std::string caption;
-  std::string story =
-      {};  ///< the same as a text with its own line breaks; then a terminal shows it
+  Story story = {};  ///< the same in words, if there is one; then a terminal shows it
   /// HTML that goes with the drawing on a page: steps to walk through. It is trusted as it is.
   std::string steps_html = {};
 };

@@ -8,6 +8,7 @@
 #include "checker/presentation/document/drawings.hpp"
 #include "checker/presentation/document/html_page.hpp"
 #include "checker/presentation/document/render.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 
 namespace stormproof::report {
 
@@ -176,7 +177,8 @@ class Page {
 
   std::string add(const Paragraph& block, std::size_t /*level*/) {
     if (block.tone == Tone::plain) return "<p>" + html(block.text) + "</p>\n";
-    return framed(block.tone, with_sign(html_text(sign_of(block.tone)), html(block.text)), "");
+    return fmt::format("<p class=\"note {}\">{}</p>\n", tone_class(block.tone),
+                       with_sign(html_text(sign_of(block.tone)), html(block.text)));
   }
 
   std::string add(const Bullets& block, std::size_t /*level*/) { return bullets(block.items); }
@@ -246,8 +248,8 @@ class Page {
     if (!block.steps_html.empty()) {
       text = "<div class=\"walk\">\n" + text + block.steps_html + "</div>\n";
     }
-    return block.story.empty() ? text
-                               : text + details("The same as a story", preformatted(block.story));
+    if (!block.story) return text;
+    return text + details("The same as a story", preformatted(block.story(report_width)));
   }
 
   std::string add(const Later& block, std::size_t level) { return blocks(block.make(), level); }

@@ -53,6 +53,7 @@ button[aria-disabled="true"] { color: var(--soft); opacity: .6; cursor: default;
 .banner.warn, .badge.warn { background: var(--warn-fill); border-color: var(--warn); }
 .banner.info, .badge.info { background: var(--info-fill); border-color: var(--info); }
 .banner > :not(.verdict-line) { color: var(--text); }
+.note { border-left: 4px solid; padding-left: .6rem; }
 .badge { display: inline-block; border: 1px solid; border-radius: 1rem; padding: 0 .6rem;
   font-size: 13px; font-weight: 600; white-space: nowrap; }
 .counts { display: flex; flex-wrap: wrap; gap: .5rem; padding: 0; margin: .8rem 0;

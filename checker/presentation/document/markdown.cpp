@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "checker/presentation/document/render.hpp"
+#include "checker/presentation/text/paragraph.hpp"
 #include "checker/presentation/text/plain_text.hpp"
 
 namespace stormproof::report {
@@ -144,9 +145,9 @@ std::string chart_md(const Sequence& block) {
 }
 
 std::string story_md(const Sequence& block) {
-  if (block.story.empty()) return {};
+  if (!block.story) return {};
   const std::string name = block.caption.empty() ? "Story" : block.caption + ", as a story";
-  return md_details(name, md_block("text", block.story));
+  return md_details(name, md_block("text", block.story(report_width)));
 }
 
 std::string to_md(const Sequence& block, std::size_t /*level*/) {

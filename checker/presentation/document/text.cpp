@@ -179,10 +179,10 @@ class TextPage {
 
   void add(const Drawing& /*block*/, std::size_t /*indent*/) {}
 
-  /// Stories and charts have a layout of their own, as wide as a report.
+  /// Stories and charts have a layout of their own; charts are as wide as a report.
   void add(const Sequence& block, std::size_t indent) {
-    if (!block.story.empty()) {
-      lines_of(0, valid_text(block.story));
+    if (block.story) {
+      lines_of(0, valid_text(block.story(width_)));
       return;
     }
     if (!block.caption.empty()) running(indent, "", block.caption);

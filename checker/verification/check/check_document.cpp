@@ -189,10 +189,10 @@ Section violation(const PropertyResult& result, const CheckContext& context, std
   const std::string id{result.property->id};
   Section section{"✗ " + id, id};
   const auto found = context.stories.find(id);
-  const std::string story = found == context.stories.end() ? "" : found->second;
+  const report::Story story = found == context.stories.end() ? report::Story{} : found->second;
   const std::string statement =
       statement_of(*result.property, model::kind_of(context.scenario.dds));
-  const Audience unless_told = story.empty() ? Audience::everybody : Audience::documents;
+  const Audience unless_told = !story ? Audience::everybody : Audience::documents;
   section.blocks.emplace_back(Paragraph{statement}, unless_told);
   section.blocks.emplace_back(Paragraph{sentence_of(result), report::Tone::bad}, unless_told);
   if (const props::Counterexample* counterexample = result.counterexample()) {
@@ -205,15 +205,14 @@ Section violation(const PropertyResult& result, const CheckContext& context, std
     };
     section.blocks.emplace_back(report::Later{walk}, Audience::documents);
   }
-  if (!story.empty()) {
+  if (story) {
     report::Sequence told;
     told.story = story;
     section.blocks.emplace_back(std::move(told), Audience::terminal);
   }
   std::string details;
   for (const std::string& line : result.decisive().details) details += line + "\n";
-  section.blocks.emplace_back(Listing{details},
-                              story.empty() ? Audience::terminal : Audience::explained);
+  section.blocks.emplace_back(Listing{details}, !story ? Audience::terminal : Audience::explained);
   const auto file = context.counterexamples.find(id);
   if (file != context.counterexamples.end()) {
     const std::string command = report::command_line({"replay", file->second});

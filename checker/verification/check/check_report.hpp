@@ -19,7 +19,7 @@ struct CheckContext {
   std::string name;  ///< what the user called the scenario
   const model::Scenario& scenario;
   std::map<std::string, std::string, std::less<>> counterexamples;  ///< property id → path
-  std::map<std::string, std::string, std::less<>> stories;          ///< property id → text
+  std::map<std::string, report::Story, std::less<>> stories;        ///< property id → text
   model::config::Places places{};  ///< of the scenario's values; empty if they are not known
   Gate gate{};                     ///< what the verdicts mean for the exit code
   std::string words{};             ///< the scenario with its overrides, for a command line

@@ -2,6 +2,8 @@
 #include "checker/verification/counterexample/story.hpp"
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -56,7 +58,8 @@ std::string who_text(const Act& act, const History& history) {
 }
 
 /// One event: its acts by party, in the order in which the parties act.
-std::string line_of(const History& history, const Relevance& relevance, std::size_t n) {
+std::string line_of(const History& history, const Relevance& relevance, std::size_t n,
+                    std::size_t columns) {
   const model::Event& event = history.steps[n].event;
   std::string text;
   std::string who;
@@ -72,7 +75,7 @@ std::string line_of(const History& history, const Relevance& relevance, std::siz
   const bool last = n + 1 == history.steps.size();
   const std::string first =
       fmt::format("{}{:>7} {:>15}  ", last ? "!" : " ", n, report::milliseconds(event.time));
-  return report::paragraph(first, text);
+  return report::paragraph(first, text, columns);
 }
 
 /// Whether a gap has more than the one or two channel events that are between any two others.
@@ -160,31 +163,38 @@ std::string timers_text(const model::Scenario& scenario) {
   return text;
 }
 
-std::string story(const props::Counterexample& counterexample) {
+std::string story(const props::Counterexample& counterexample, std::size_t columns) {
   const History history = record(counterexample);
   const Relevance relevance = relevance_of(history);
   const props::Property* property = props::find_property(counterexample.property);
 
+  const auto paragraph = [columns](std::string_view first, std::string_view words) {
+    return report::paragraph(first, words, columns);
+  };
   std::string text =
       fmt::format("{} is violated at event {}, {}\n", counterexample.property,
                   report::grouped(counterexample.event), props::time_text(counterexample.time));
   if (property != nullptr) {
-    text += report::paragraph("  statement  ",
-                              statement_of(*property, model::kind_of(counterexample.scenario.dds)));
+    text += paragraph("  statement  ",
+                      statement_of(*property, model::kind_of(counterexample.scenario.dds)));
   }
-  text += report::paragraph("  why        ", counterexample.reason);
-  text += report::paragraph("  run        ", deployment_text(counterexample.scenario));
-  text += report::paragraph("  timers     ", timers_text(counterexample.scenario));
+  text += paragraph("  why        ", counterexample.reason);
+  text += paragraph("  run        ", deployment_text(counterexample.scenario));
+  text += paragraph("  timers     ", timers_text(counterexample.scenario));
   text += "\n   event              ms  participant: what it does; what changes\n";
   for (const Selected& selected : select(history, relevance, told_events)) {
     if (!selected.gap)
-      text += line_of(history, relevance, selected.step);
+      text += line_of(history, relevance, selected.step, columns);
     else if (selected.last - selected.step >= 2 || leaves_out_more(relevance, selected))
       text +=
-          fmt::format("       …                  ({})\n", gap_text(history, relevance, selected));
+          paragraph("       …                  (", gap_text(history, relevance, selected) + ")");
   }
-  for (const std::string& step : counterexample.steps) text += report::paragraph("  - ", step);
-  return text + "\n" + report::paragraph("The property breaks: ", counterexample.reason);
+  for (const std::string& step : counterexample.steps) text += paragraph("  - ", step);
+  return text + "\n" + paragraph("The property breaks: ", counterexample.reason);
+}
+
+report::Story told(props::Counterexample counterexample) {
+  return [run = std::move(counterexample)](std::size_t columns) { return story(run, columns); };
 }
 
 }  // namespace stormproof::counterexample

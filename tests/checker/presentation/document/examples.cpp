@@ -88,7 +88,8 @@ CheckExample::CheckExample()
       result_of("storm.free-threshold", violation(counterexample::smallest())));
   scenario_.dds.unmodelled.emplace("setting " + hostile, "an effect " + hostile);
   context_.counterexamples.emplace("storm.free-threshold", "ce/storm.free-threshold.jsonl");
-  context_.stories.emplace("storm.free-threshold", "a story\nof " + hostile);
+  context_.stories.emplace("storm.free-threshold",
+                           [hostile = hostile](std::size_t) { return "a story\nof " + hostile; });
   context_.gate = checker::judge(report_, scenario_.dds, {.strict = true});
   const std::string file = "my robots.yaml";
   context_.places.emplace("deployment", place(file, 1, 1));

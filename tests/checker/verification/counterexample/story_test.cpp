@@ -103,11 +103,13 @@ TEST(Story, EndsWithTheReason) {
 
 TEST(Story, HasNoLongLines) {
   for (const Example& example : examples()) {
-    std::string text = story(example.counterexample);
-    while (!text.empty()) {
-      const std::size_t end = text.find('\n');
-      EXPECT_LE(report::columns(text.substr(0, end)), 110U) << text.substr(0, end);
-      text.erase(0, end + 1);
+    for (const std::size_t columns : {80U, 100U}) {
+      std::string text = story(example.counterexample, columns);
+      while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        EXPECT_LE(report::columns(text.substr(0, end)), columns + 10) << text.substr(0, end);
+        text.erase(0, end + 1);
+      }
     }
   }
 }
