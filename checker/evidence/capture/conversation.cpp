@@ -40,7 +40,7 @@ struct Reading {
   /// What everything that grows with the captures takes, about, in bytes; with what `conform` keeps
   /// beside each event.
   [[nodiscard]] std::size_t memory() const {
-    constexpr std::size_t beside_event = 128;
+    constexpr std::size_t beside_event = 256;
     const std::size_t kept = extraction.events.size() * (sizeof(Event) + beside_event) +
                              extraction.descriptions.size() * sizeof(Description) +
                              datagrams.size() * sizeof(DatagramRecord) +

@@ -146,9 +146,12 @@ TEST(Annotations, AreWhatTheFiltersOfTheProfileShow) {
     const std::uint64_t packets = shown(own.path(), filter);
     ++read;
     for (const char* cause : {"needless_repairs", "loss", "forgotten"}) {
-      if (filter.find(cause) != std::string::npos) EXPECT_EQ(packets, with(cause)) << filter;
+      if (filter.find(cause) == std::string::npos) continue;
+      EXPECT_EQ(packets, with(cause)) << filter;
     }
-    if (filter.find("0x000003c2") != std::string::npos) EXPECT_GT(packets, 0U) << filter;
+    if (filter.find("0x000003c2") != std::string::npos) {
+      EXPECT_GT(packets, 0U) << filter;
+    }
   }
   EXPECT_EQ(read, 9U);
 }

@@ -89,7 +89,8 @@ TEST(VendorKnobs, are_in_the_order_of_the_profile) {
     if (vendor == Vendor::fastdds) {  // the other ways to discover have keys, which come first
       std::vector<std::string> own;
       DdsProfile server = preset("fastdds-server-2.6.11");
-      server.server.known = ServerKnown::locator;  // written only if it is not the usual
+      server.server.known = ServerKnown::locator;  // written only if they are not the usual
+      server.server.rejoin = Rejoin::known;
       for (const DdsProfile& other :
            {server, preset("fastdds-static-2.6.11"), preset("fastdds-3.6")}) {
         const Json json = effective_json(other);

@@ -127,7 +127,10 @@ TEST(WriteXml, another_way_to_discover_comes_back) {
   const auto with_way = [](Discovery way) {
     DdsProfile profile = preset("fastdds-2.14.5");
     profile.discovery = way;
-    if (way != Discovery::static_peers) profile.server.relay = Relay::once;  // of its server
+    if (way != Discovery::static_peers) {  // of its server
+      profile.server.relay = Relay::once;
+      profile.server.rejoin = Rejoin::known;
+    }
     return profile;
   };
   for (const Discovery way :
