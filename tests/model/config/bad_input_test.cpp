@@ -492,7 +492,7 @@ TEST(BadInput, a_million_fragments_are_the_limit) {
 }
 
 TEST(BadInput, a_mistake_in_a_base_is_placed_in_that_file) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string path = files.write("dds/mine.yaml", "base: paper\nsedp:\n  groupin: mtu\n");
   const SpecPath specs{{files.root(), STORMPROOF_SPECS_DIR}};
   const auto read = parse_scenario(

@@ -53,7 +53,7 @@ TEST(Distributions, GoWhereverAProfileMayBeNamed) {
   ASSERT_TRUE(scenario) << to_string(scenario.error());
   EXPECT_EQ(scenario->preset, "fastdds-2.14.5");
   EXPECT_EQ(scenario->value.dds.spdp.period, Nanoseconds{7'000'000'000});
-  const TestFiles files;
+  const TestFiles files{};
   const std::string mine = files.write("mine.yaml", "base: kilted\n");
   EXPECT_EQ(trace_dds_profile(mine, {}, specs)->preset, "fastdds-3.2");
   const std::string xml = specs.directories.front() + "/vendor/";
@@ -79,7 +79,7 @@ TEST(Distributions, HaveAVersionOfTheVendorWhoseFileItIs) {
   EXPECT_NE(to_string(other.error()).find("'fastdds-3.2' is a preset of Fast DDS"),
             std::string::npos);
   // The library of the distribution knows the property, that of an earlier one does not.
-  const TestFiles files;
+  const TestFiles files{};
   const std::string file = files.write(
       "types.xml",
       "<dds><profiles><participant profile_name='p' is_default_profile='true'><rtps>"
@@ -96,7 +96,7 @@ TEST(Distributions, HaveAVersionOfTheVendorWhoseFileItIs) {
 }
 
 TEST(Distributions, AFileOfTheNameWins) {
-  const TestFiles files;
+  const TestFiles files{};
   files.write("dds/humble.yaml", "base: paper\n");
   const SpecPath specs{{files.root(), STORMPROOF_SPECS_DIR}};
   EXPECT_EQ(trace_dds_profile("humble", {}, specs)->preset, "humble");
@@ -124,7 +124,7 @@ TEST(Distributions, RetiredProfilesNameTheirSuccessor) {
 
 TEST(Distributions, MistakesHaveTheirPlace) {
   const auto error_of = [](const std::string& text) {
-    const TestFiles files;
+    const TestFiles files{};
     const std::string file = files.write("distributions.yaml", text);
     const auto all = read_distributions({files.path("none"), files.root()});
     return all ? "" : to_string(all.error()).substr(file.size());
@@ -138,7 +138,7 @@ TEST(Distributions, MistakesHaveTheirPlace) {
   EXPECT_EQ(error_of("distributions:\n  a: {shipps: x, profile: paper, why: z}"),
             ":2:7: unknown key 'shipps' in distributions.a; did you mean 'ships'?");
   EXPECT_TRUE(read_distributions({"/none"})->empty());
-  const TestFiles files;  // an unknown name tells of the mistake
+  const TestFiles files{};  // an unknown name tells of the mistake
   files.write("distributions.yaml", "distribution: {}");
   EXPECT_NE(to_string(read_dds_profile("humble", {}, {{files.root()}}).error())
                 .find("unknown key 'distribution'"),

@@ -23,7 +23,7 @@ class ProfileFiles : public testing::Test {
     return resolved ? "accepted" : to_string(resolved.error());
   }
 
-  const TestFiles files;
+  const TestFiles files{};
 };
 
 TEST_F(ProfileFiles, bases_are_merged_in_order) {

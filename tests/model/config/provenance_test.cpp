@@ -57,7 +57,7 @@ class Provenance : public testing::Test {
     return profile ? "accepted" : to_string(profile.error());
   }
 
-  const TestFiles files;
+  const TestFiles files{};
 };
 
 TEST_F(Provenance, every_node_of_a_tree_has_its_place) {

@@ -273,7 +273,7 @@ TEST(ScenarioFile, profiles_can_be_read_alone) {
 }
 
 TEST(ScenarioFile, scenarios_go_by_path_or_name) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string path = files.write("mine.yaml", plain);
   EXPECT_EQ(read_scenario(path, {}, source_specs())->deployment.size(), 2U);
   EXPECT_EQ(read_scenario("wifi-5x20", {}, source_specs())->deployment,
@@ -282,7 +282,7 @@ TEST(ScenarioFile, scenarios_go_by_path_or_name) {
 }
 
 TEST(ScenarioFile, profiles_are_found_beside_the_scenario) {
-  const TestFiles files;
+  const TestFiles files{};
   files.write("radio.yaml", "{base: wifi-80211n, rate_unicast: 1Gbps}");
   const std::string text = "{base: radio.yaml, order: fifo}";
   std::string own = plain;

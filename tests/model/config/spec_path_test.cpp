@@ -11,7 +11,7 @@ namespace stormproof::model::config {
 namespace spec_path_test {
 
 TEST(SpecPath, the_first_folder_wins) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string own = files.write("one/dds/paper.yaml", "{}");
   files.write("two/dds/paper.yaml", "{}");
   const std::string other = files.write("two/dds/other.yaml", "{}");
@@ -23,7 +23,7 @@ TEST(SpecPath, the_first_folder_wins) {
 }
 
 TEST(SpecPath, an_unknown_name_lists_the_known_ones) {
-  const TestFiles files;
+  const TestFiles files{};
   files.write("wireless/wired.yaml", "{}");
   files.write("wireless/ad-hoc.yaml", "{}");
   files.write("wireless/notes.txt", "");
@@ -35,7 +35,7 @@ TEST(SpecPath, an_unknown_name_lists_the_known_ones) {
 }
 
 TEST(SpecPath, paths_are_relative_to_the_file_that_names_them) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string file = files.write("sub/own.yaml", "{}");
   const SpecPath specs{{files.root()}};
   EXPECT_EQ(*specs.find(SpecKind::dds, "own.yaml", files.path("sub"), ""), file);
@@ -46,7 +46,7 @@ TEST(SpecPath, paths_are_relative_to_the_file_that_names_them) {
 }
 
 TEST(SpecPath, a_file_without_an_ending_is_found_if_no_name_is_meant) {
-  const TestFiles files;
+  const TestFiles files{};
   files.write("dds/paper.yaml", "{}");
   const std::string own = files.write("sub/mine", "{}");
   files.write("sub/paper", "{}");

@@ -21,7 +21,7 @@ std::string error_of(const TestFiles& files, const std::string& file) {
 }
 
 std::string error_for(const std::string& text) {
-  const TestFiles files;
+  const TestFiles files{};
   return error_of(files, files.write("t.jsonl", text));
 }
 
@@ -33,12 +33,12 @@ testing::AssertionResult starts_with(const std::string& text, const std::string&
 std::vector<std::string> good_lines() { return record(case_named("hosts2x1x2")).lines; }
 
 TEST(ReplayErrors, FileThatIsNotThere) {
-  const TestFiles files;
+  const TestFiles files{};
   EXPECT_EQ(error_of(files, files.path("none")), "none: cannot be read");
 }
 
 TEST(ReplayErrors, Folder) {
-  const TestFiles files;
+  const TestFiles files{};
   EXPECT_TRUE(starts_with(error_of(files, files.root()),
                           files.root() + ": is a directory; expected a file"));
 }

@@ -98,7 +98,7 @@ TEST(YamlText, depth_and_size_are_bounded) {
 }
 
 TEST(YamlText, files_that_cannot_be_read_are_refused) {
-  const TestFiles files;
+  const TestFiles files{};
   EXPECT_EQ(load_yaml(files.root()).error().message, "is a directory; expected a file");
   EXPECT_EQ(load_yaml(files.path("none")).error().message, "cannot be read");
   EXPECT_EQ(load_yaml("/dev/zero").error().message, "longer than 16777216 bytes");

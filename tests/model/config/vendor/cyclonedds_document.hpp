@@ -71,7 +71,7 @@ inline const Setting& setting(const VendorProfile& profile, const std::string& p
 }
 
 inline DdsProfile resolved(const std::string& text, const std::string& suffix = {}) {
-  const TestFiles files;
+  const TestFiles files{};
   const auto profile = read_dds_profile(files.write("c.xml", text) + suffix, {}, source_specs());
   EXPECT_TRUE(profile) << to_string(profile.error());
   return profile ? *profile : DdsProfile{};

@@ -133,7 +133,7 @@ RC_GTEST_PROP(FastddsDocuments, are_refused_with_a_place_or_become_a_valid_profi
   }
   std::ranges::sort(keys);
   RC_ASSERT(std::ranges::adjacent_find(keys) == keys.end());
-  const TestFiles files;
+  const TestFiles files{};
   const std::string path = files.write("f.xml", text);
   const auto read = read_dds_profile(path, {}, source_specs());
   RC_ASSERT(bool{read} != has_errors(*profile));

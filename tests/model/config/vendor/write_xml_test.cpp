@@ -42,7 +42,7 @@ std::string refusal(const std::string& name, const DdsProfile& profile) {
 
 /// What `xml` says on top of the preset.
 DdsProfile read_back(const std::string& name, const std::string& xml) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string path = files.write("p.xml", xml);
   auto profile = read_dds_profile(path + "@" + name, {}, source_specs());
   EXPECT_TRUE(profile) << to_string(profile.error()) << "\n" << xml;

@@ -160,7 +160,7 @@ TEST(XmlText, depth_elements_and_size_are_limited) {
 }
 
 TEST(XmlText, files_are_read_and_what_is_none_is_refused) {
-  const TestFiles files;
+  const TestFiles files{};
   const std::string good = files.write("good.xml", "<a/>");
   const auto root = load_xml(good);
   ASSERT_TRUE(root);
