@@ -322,7 +322,7 @@ Result<Conversation> read_conversation(std::span<const MemoryCapture> captures) 
   for (const MemoryCapture& capture : captures) {
     auto file = CaptureFile::from_memory(capture.name, capture.content, capture.unpack_limit);
     if (!file) return file.error();
-    read_packets(*file, reading, most_memory, {});
+    read_packets(*file, reading, capture.most_kept.value_or(most_memory), {});
   }
   return converse(std::move(reading));
 }

@@ -140,7 +140,8 @@ struct Conversation {
 struct MemoryCapture {
   std::string name{};
   Bytes content{};
-  std::size_t unpack_limit = 0;  ///< bytes
+  std::size_t unpack_limit = 0;            ///< bytes
+  std::optional<std::size_t> most_kept{};  ///< bytes of what is read; otherwise as of files
 };
 
 /// Called now and then with the number of packets read; false stops reading, and what was read

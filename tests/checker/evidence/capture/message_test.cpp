@@ -2,6 +2,7 @@
 // and what is refused.
 #include <gtest/gtest.h>
 
+#include "checker/evidence/capture/counting.hpp"
 #include "checker/evidence/capture/message_events.hpp"
 #include "checker/evidence/capture/rtps_message.hpp"
 #include "tests/checker/evidence/capture/packets.hpp"
@@ -225,6 +226,44 @@ TEST(Message, WhatIsBeyondTheLimitsIsLeftOutWithARemark) {
   EXPECT_EQ(extracted(message, {.participants = 2}, few_participants), 4U);
   ASSERT_EQ(few_participants.list().size(), 1U);
   EXPECT_EQ(few_participants.list()[0].count, 6U);
+}
+
+TEST(Message, ACaptureWithMoreThanIsKeptIsUsedUpToThere) {
+  PcapFile file;
+  constexpr std::uint8_t packets = 100;
+  for (std::uint8_t k = 0; k < packets; ++k) {
+    Route way{at(1, 7410), multicast()};
+    way.id = k + 1U;
+    file.message(k * 1000, way, Message{prefix(1)}.heartbeat(pub, 1, 1, k));
+  }
+  const auto read = [&](std::optional<std::size_t> most) {
+    const std::array captures{MemoryCapture{"a", file.buffer(), 1U << 20U, most}};
+    auto conversation = read_conversation(captures);
+    EXPECT_TRUE(conversation);
+    return conversation ? *std::move(conversation) : Conversation{};
+  };
+  EXPECT_EQ(read({}).events.size(), packets);
+  const Conversation some = read(10'000);
+  EXPECT_GT(some.events.size(), 10U);
+  EXPECT_LT(some.events.size(), 40U);
+  EXPECT_EQ(some.last_ns, some.events.back().time_ns) << "it ends there";
+  ASSERT_EQ(some.remarks.size(), 1U);
+  EXPECT_EQ(some.remarks[0].what, "captures with more than is kept, used up to there");
+}
+
+TEST(Message, DataOfUsersIsCountedAndNoEvent) {
+  constexpr EntityId topic = 0x00001203;
+  const Conversation conversation = conversation_with(
+      Message{prefix(1)}.descriptor(topic, 1).descriptor(topic, 2).heartbeat(topic, 1, 2, 1));
+  EXPECT_EQ(conversation.events.size(), 1U) << "its HEARTBEAT is";
+  ASSERT_EQ(conversation.datagrams.size(), 1U);
+  EXPECT_EQ(conversation.datagrams[0].user.data, 2U);
+  EXPECT_EQ(conversation.datagrams[0].user.fragments, 0U);
+  const Counting counting = count(conversation, INT64_MAX);
+  EXPECT_EQ(counting.traffic[static_cast<std::size_t>(Traffic::user)].data, 2U);
+  const Conversation alone = conversation_with(Message{prefix(1)}.descriptor(topic, 1));
+  EXPECT_TRUE(alone.events.empty());
+  ASSERT_EQ(alone.topology.participants.size(), 1U) << "who sends nothing else is there, too";
 }
 
 TEST(Message, APayloadThatBreaksOffIsReportedButItsDataCounts) {
