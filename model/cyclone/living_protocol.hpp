@@ -26,7 +26,7 @@ class LivingProtocol final : public ProtocolOf<LivingProtocol, rules::CycloneLiv
       ProtocolOf<LivingProtocol, rules::CycloneLiving, LivingColumns, LivingSteps<LivingProtocol>>;
 
  public:
-  using Below::Below;
+  LivingProtocol(RunState& run, Network& network) : Below{run, network} { begin_liveliness(); }
 
   void start() override;
   void handle(const Event& event) override;

@@ -10,9 +10,7 @@ namespace stormproof::model::cyclone {
 
 template <class Self, class Composition_, class Columns_, class Steps>
 ProtocolOf<Self, Composition_, Columns_, Steps>::ProtocolOf(RunState& run, Network& network)
-    : Stored{run}, ThreadSteps{run}, sender_{run, network, *this} {
-  this->begin_liveliness();
-}
+    : Stored{run}, ThreadSteps{run}, sender_{run, network, *this} {}
 
 template <class Self, class Composition_, class Columns_, class Steps>
 void ProtocolOf<Self, Composition_, Columns_, Steps>::start() {

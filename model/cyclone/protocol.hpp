@@ -108,7 +108,7 @@ class ProtocolOf : public Stored<Self, HostBase, ThingsOf<Composition_>, Columns
 
 class Protocol final : public ProtocolOf<Protocol, rules::Cyclone, Columns, ThreadSteps<Protocol>> {
  public:
-  using ProtocolOf::ProtocolOf;
+  Protocol(RunState& run, Network& network) : ProtocolOf{run, network} { begin_liveliness(); }
 };
 
 extern template class ProtocolOf<Protocol, rules::Cyclone, Columns, ThreadSteps<Protocol>>;

@@ -202,7 +202,8 @@ class ThreadSteps : public EventThreads {
   }
 
  protected:
-  /// The sample of the liveliness writer is there from the beginning.
+  /// The sample of the liveliness writer is there from the beginning. For the host's constructor:
+  /// before it there is no host to ask.
   void begin_liveliness() {
     for (Number i = 0; i < threads_.size(); ++i) {
       host().template set_first<rules::Exists>(stride_ * i + writer::liveliness, 1);
