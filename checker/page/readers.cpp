@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "checker/page/plain_yaml.hpp"
-#include "model/config/tree/file_text.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/config/vendor/vendor_knobs.hpp"
 #include "model/config/vendor/vendor_profile.hpp"
@@ -16,19 +15,6 @@ Result<Node> parse_yaml(std::string_view text, const std::string& source) {
     return InputError{source, fmt::format("longer than {} bytes", max_file_bytes)};
   }
   return page::parse_plain_yaml(text, source);
-}
-
-Result<Node> load_yaml(const std::string& path) {
-  const auto text = file_text(path, max_file_bytes);
-  if (!text) return text.error();
-  return parse_yaml(*text, path);
-}
-
-std::string quoted_scalar(std::string text) {
-  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
-    text.insert(k, 1, '\'');
-  }
-  return "'" + text + "'";
 }
 
 namespace vendor {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include "fsm/composition/server_life.hpp"
 #include "model/fastdds/living_protocol.hpp"

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "fsm/composition/fastdds.hpp"
+#include "model/engine/run_state.hpp"
 #include "model/engine/running_world.hpp"
 #include "model/fastdds/control.hpp"
 #include "model/fastdds/types.hpp"

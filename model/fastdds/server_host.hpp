@@ -5,10 +5,8 @@
 // clients is in server_packets.hpp.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "model/engine/packet_tags.hpp"

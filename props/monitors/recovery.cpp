@@ -12,26 +12,22 @@
 #include "model/implementations.hpp"
 #include "model/life.hpp"
 #include "model/trace/event_subject.hpp"
-#include "props/monitors/delay_observer.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
 #include "props/monitors/received_descriptors.hpp"
-#include "props/monitors/recovery_bound.hpp"
+#include "props/monitors/recovery_observer.hpp"
 #include "props/monitors/recovery_of_samples.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class Recovery : public DelayObserver {
+class Recovery : public RecoveryObserver {
  public:
   Recovery(const model::Scenario& scenario, std::optional<model::Nanoseconds> bound)
-      : DelayObserver{"live.recovery", scenario},
-        scenario_{scenario},
-        life_{scenario.deployment.life.value_or(model::Life{})},
-        given_bound_{bound},
-        failed_{last_failure(scenario.deployment)} {}
+      : RecoveryObserver{scenario, bound},
+        life_{scenario.deployment.life.value_or(model::Life{})} {}
 
   void run_started(const model::Topology& topology) override {
     Observer::run_started(topology);
@@ -44,8 +40,7 @@ class Recovery : public DelayObserver {
     }
   }
   void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    if (event.time > failed_ && event.time > due(event.time)) judge(event.time);
+    RecoveryObserver::event_started(event);
     if (model::trace::subject_of(event.kind) == model::trace::Subject::relation) {
       touch(event.subject);
     }
@@ -60,26 +55,27 @@ class Recovery : public DelayObserver {
     received_.arriving(packet);
   }
   void arrived(const model::Packet& packet, bool lost) override {
-    DelayObserver::arrived(packet, lost);
+    RecoveryObserver::arrived(packet, lost);
     const bool is_of_relation = packet.kind == model::PacketKind::data ||
                                 packet.kind == model::PacketKind::heartbeat ||
                                 packet.kind == model::PacketKind::acknack;
     if (is_of_relation) touch(packet.relation());
-    if (lost) failed_ = std::max(failed_, now());
   }
-  void finish(model::Nanoseconds end) override {
-    end_ = end;
-    undecided_ = end < due(end) && is_missing_something();
-    if (!undecided_) judge(end);
+
+ protected:
+  [[nodiscard]] bool is_missing_something() const override {
+    return std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
   }
-  [[nodiscard]] bool is_undecided() const override { return undecided_; }
-  [[nodiscard]] std::vector<std::string> assumptions() const override {
-    return {fmt::format("no packet takes longer than Δ (in this run the largest delay is {})",
-                        time_text(delays().largest(end_)))};
-  }
-  [[nodiscard]] std::vector<std::string> remarks() const override {
-    return {
-        fmt::format("Nothing fails after {}; B = {}.", time_text(failed_), time_text(bound(end_)))};
+  void complain(model::Nanoseconds due) override {
+    const auto missing =
+        std::ranges::find_if(relations_, [](const Relation& r) { return r.missing > 0; });
+    const auto number = static_cast<std::uint32_t>(missing - relations_.begin());
+    object(missing->event, missing->time,
+           fmt::format("Nothing more happens there until {}: {} descriptor{} of {} {} still "
+                       "missing, and nothing has failed since {}.",
+                       time_text(due), missing->missing, missing->missing == 1 ? "" : "s",
+                       relation_text(*names_, number), missing->missing == 1 ? "is" : "are",
+                       time_text(failed())));
   }
 
  private:
@@ -89,17 +85,6 @@ class Recovery : public DelayObserver {
     model::Nanoseconds time;
   };
 
-  /// B; of packets under way at that time their age counts.
-  [[nodiscard]] model::Nanoseconds bound(model::Nanoseconds time) const {
-    return given_bound_ ? *given_bound_
-                        : recovery_bound(scenario_, failed_, delays().largest(time));
-  }
-  [[nodiscard]] model::Nanoseconds due(model::Nanoseconds time) const {
-    return failed_ + bound(time);
-  }
-  [[nodiscard]] bool is_missing_something() const {
-    return std::ranges::any_of(relations_, [](const Relation& r) { return r.missing > 0; });
-  }
   [[nodiscard]] bool is_asked_for(const model::Pair& pair) const {
     return lives(pair) && !has_all(pair);
   }
@@ -151,29 +136,11 @@ class Recovery : public DelayObserver {
     relations_[relation].missing = topology().descriptor_count(relation);
     touch(relation);
   }
-  void judge(model::Nanoseconds time) {
-    if (violation()) return;
-    const auto missing =
-        std::ranges::find_if(relations_, [](const Relation& r) { return r.missing > 0; });
-    if (missing == relations_.end()) return;
-    const auto number = static_cast<std::uint32_t>(missing - relations_.begin());
-    object(missing->event, missing->time,
-           fmt::format("Nothing more happens there until {}: {} descriptor{} of {} {} still "
-                       "missing, and nothing has failed since {}.",
-                       time_text(due(time)), missing->missing, missing->missing == 1 ? "" : "s",
-                       relation_text(*names_, number), missing->missing == 1 ? "is" : "are",
-                       time_text(failed_)));
-  }
 
-  const model::Scenario scenario_;
   const model::Life life_;
-  const std::optional<model::Nanoseconds> given_bound_;
   ReceivedDescriptors received_;
   std::optional<model::Topology> names_;  ///< also after the run
   std::vector<Relation> relations_;
-  model::Nanoseconds failed_;  ///< when something failed last, so far
-  model::Nanoseconds end_;
-  bool undecided_ = false;
 };
 
 }  // namespace

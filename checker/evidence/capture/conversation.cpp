@@ -85,19 +85,18 @@ void add_datagram(const Datagram& datagram, Reading& reading) {
 
 /// A packet on a port of Zenoh: TCP 7447, and UDP 7446, to which it scouts. Participants 18 of a
 /// host in domain 0 have these UDP ports, too, so what is RTPS is not one.
-bool is_of_zenoh(Bytes packet) {
+bool is_of_zenoh(const IpPacket& packet) {
   constexpr std::uint8_t tcp = 6;
   constexpr std::uint8_t udp = 17;
   constexpr std::uint16_t links = 7447;
   constexpr std::uint16_t scouting = 7446;
   constexpr std::size_t udp_header = 8;
   constexpr std::string_view rtps = "RTPS";
-  const auto ip = parse_ip(packet);
-  if (!ip || ip->offset > 0 || ip->payload.size() < udp_header) return false;
-  const Bytes payload = ip->payload;
+  if (packet.offset > 0 || packet.payload.size() < udp_header) return false;
+  const Bytes payload = packet.payload;
   const auto port = [&](std::size_t at) { return payload[at] << 8U | payload[at + 1]; };
-  if (ip->protocol == tcp) return port(0) == links || port(2) == links;
-  if (ip->protocol != udp || port(2) != scouting) return false;
+  if (packet.protocol == tcp) return port(0) == links || port(2) == links;
+  if (packet.protocol != udp || port(2) != scouting) return false;
   const Bytes content = payload.subspan(udp_header);
   return !std::equal(
       rtps.begin(), rtps.end(), content.begin(),
@@ -117,8 +116,10 @@ std::optional<Datagram> datagram_in(const Packet& packet, CaptureFile& file,
     remark("packets that passed several of the captured interfaces, seen once");
     return std::nullopt;
   }
-  if (is_of_zenoh(*ip)) remark("packets of Zenoh, which is no RTPS");
-  add_igmp(*ip, igmp);
+  if (const auto parsed = parse_ip(*ip)) {
+    if (is_of_zenoh(*parsed)) remark("packets of Zenoh, which is no RTPS");
+    add_igmp(*parsed, igmp);
+  }
   return reassembly.add(packet, *ip);
 }
 

@@ -1,8 +1,6 @@
 // Queries, reports of all versions, and leaves.
 #include "checker/evidence/capture/igmp.hpp"
 
-#include "checker/evidence/capture/ip_packet.hpp"
-
 namespace stormproof::capture {
 
 namespace {
@@ -32,7 +30,7 @@ void add_report(const Address& from, Cursor cursor, Igmp& igmp) {
 
 }  // namespace
 
-void add_igmp(Bytes ip_packet, Igmp& igmp) {
+void add_igmp(const IpPacket& packet, Igmp& igmp) {
   constexpr std::uint8_t protocol = 2;
   constexpr std::uint8_t query = 0x11;
   constexpr std::uint8_t report_1 = 0x12;
@@ -40,18 +38,17 @@ void add_igmp(Bytes ip_packet, Igmp& igmp) {
   constexpr std::uint8_t leave = 0x17;
   constexpr std::uint8_t report_3 = 0x22;
   constexpr std::size_t most_groups = 1024;
-  const auto ip = parse_ip(ip_packet);
-  if (!ip || ip->protocol != protocol || ip->is_fragment()) return;
-  Cursor cursor{ip->payload};
+  if (packet.protocol != protocol || packet.is_fragment()) return;
+  Cursor cursor{packet.payload};
   const std::uint8_t type = cursor.u8();
   cursor.skip(3);  // a time, and the checksum
   if (cursor.failed() || igmp.members.size() > most_groups) return;
-  if (type == query) igmp.queriers.insert(ip->source);
-  if (type == report_3) return add_report(ip->source, cursor, igmp);
+  if (type == query) igmp.queriers.insert(packet.source);
+  if (type == report_3) return add_report(packet.source, cursor, igmp);
   const Address group = Address::from(cursor.take(4));
   if (cursor.failed()) return;
-  if (type == report_1 || type == report_2) igmp.members[group].insert(ip->source);
-  if (type == leave) igmp.members[group].erase(ip->source);
+  if (type == report_1 || type == report_2) igmp.members[group].insert(packet.source);
+  if (type == leave) igmp.members[group].erase(packet.source);
 }
 
 }  // namespace stormproof::capture

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "checker/evidence/capture/address.hpp"
-#include "checker/evidence/capture/bytes.hpp"
+#include "checker/evidence/capture/ip_packet.hpp"
 
 namespace stormproof::capture {
 
@@ -18,7 +18,7 @@ struct Igmp {
   std::map<Address, std::set<Address>> members{};  ///< of a group: who said that it listens
 };
 
-/// Adds what this IP packet says; anything else than IGMP says nothing.
-void add_igmp(Bytes ip_packet, Igmp& igmp);
+/// Adds what this packet says; anything else than IGMP says nothing.
+void add_igmp(const IpPacket& packet, Igmp& igmp);
 
 }  // namespace stormproof::capture

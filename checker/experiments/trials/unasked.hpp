@@ -34,8 +34,8 @@ struct Unasked {
   [[nodiscard]] bool lacked_time() const { return !fewer.empty() || !left_out.empty(); }
 };
 
-/// One for each, without a full stop: "340 of 1,200 runs of the search", "pairs", "12 runs of the
-/// search were cut at 4.1 s: …".
+/// One for each, without a full stop: "340 of 1,200 runs of the search", "no pairs", "cut: 12 runs
+/// of the search at 4.1 s of simulated time".
 [[nodiscard]] std::vector<std::string> sentences_of(const Unasked& unasked);
 
 /// A line each of what there was no time for and what was cut, if there is any.

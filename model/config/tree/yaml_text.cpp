@@ -13,8 +13,6 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
-#include "model/config/tree/file_text.hpp"
-
 namespace stormproof::model::config {
 namespace {
 
@@ -230,19 +228,6 @@ Result<Node> parse_yaml(std::string_view text, const std::string& source) {
     const Place place = error.mark.is_null() ? Place{name, 1, 1} : builder.place(error.mark);
     return error_at(place, "not valid YAML: " + error.msg);
   }
-}
-
-Result<Node> load_yaml(const std::string& path) {
-  const auto text = file_text(path, max_file_bytes);
-  if (!text) return text.error();
-  return parse_yaml(*text, path);
-}
-
-std::string quoted_scalar(std::string text) {
-  for (std::size_t k = 0; (k = text.find('\'', k)) != std::string::npos; k += 2) {
-    text.insert(k, 1, '\'');
-  }
-  return "'" + text + "'";
 }
 
 }  // namespace stormproof::model::config

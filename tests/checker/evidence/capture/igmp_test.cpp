@@ -12,7 +12,9 @@ const Address group = multicast().address;
 
 Igmp of(const std::vector<Buffer>& packets) {
   Igmp igmp;
-  for (const Buffer& packet : packets) add_igmp(packet, igmp);
+  for (const Buffer& packet : packets) {
+    if (const auto ip = parse_ip(packet)) add_igmp(*ip, igmp);
+  }
   return igmp;
 }
 
