@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "checker/engines/exact/health.hpp"
+#include "checker/page/knowledge.hpp"
 #include "checker/page/moment.hpp"
 #include "checker/page/recording.hpp"
 #include "checker/presentation/diagrams/machine_svg.hpp"
@@ -157,7 +158,8 @@ EMSCRIPTEN_KEEPALIVE const char* page_open(const char* yaml) {
                    {"seed", model::own_seed(read)},
                    {"time_limit_ns", read.time_limit.count()},
                    {"implementation", model::traits_of(read.dds).name},
-                   {"has_server", model::traits_of(read.dds).has_server}});
+                   {"has_server", model::traits_of(read.dds).has_server},
+                   {"knows_pairs", Knowledge::is_known(read)}});
 }
 
 /// One run of the schedule that the seed draws: result and health.

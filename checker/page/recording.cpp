@@ -18,7 +18,7 @@ class Camera final : public model::Probe {
  public:
   Camera(const model::Scenario& scenario, model::Nanoseconds end, std::size_t pictures)
       : participants_{scenario.deployment.size()},
-        knowledge_{scenario.dds},
+        knowledge_{scenario},
         end_{end},
         wanted_{static_cast<std::int64_t>(pictures)} {}
 

@@ -273,7 +273,7 @@ const drawMatrix = () => {
     }
   }
   pen.globalAlpha = 1;
-  const words = scenario.has_server ? "A Discovery Server passes descriptors on; pairs are not drawn."
+  const words = !scenario.knows_pairs ? "A Discovery Server lives here, and clients may forget without a packet; pairs are not drawn."
     : `${whole} of ${pairs} pairs on different robots are complete at ${exact(film.pictures[at.picture][0])}`;
   canvas.setAttribute("aria-label", words);
 };

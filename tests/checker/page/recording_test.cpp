@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "checker/page/knowledge.hpp"
 #include "checker/page/moment.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/engine/topology.hpp"
@@ -80,6 +81,53 @@ TEST_P(Recordings, StopAtEachEvent) {
   EXPECT_EQ(moment_of(scenario, events + 7, 1).event, events);
 }
 
+/// After each event, what is not known of pairs that count is what the run says is missing.
+class MissingKnowledge final : public model::Probe {
+ public:
+  explicit MissingKnowledge(const model::Scenario& scenario)
+      : scenario_{scenario}, knowledge_{scenario} {}
+
+  void run_started(const model::Topology& topology) override {
+    topology_ = &topology;
+    knowledge_.run_started(topology);
+  }
+  void transition(const model::Transition& fired) override { knowledge_.transition(fired); }
+  void received(const model::Packet& packet, std::uint32_t) override {
+    knowledge_.received(packet);
+  }
+  void event_finished(const model::Depths& depths) override {
+    std::uint64_t missing = 0;
+    const std::size_t clients = scenario_.deployment.size();
+    const bool of_one_host = clients < topology_->participant_count();  // with a server
+    for (std::uint32_t pair = 0; pair < topology_->pair_count(); ++pair) {
+      const model::Pair& ends = topology_->pair(pair);
+      if (std::max(ends.source, ends.destination) >= clients) continue;
+      if (ends.cross_host || of_one_host) missing += knowledge_.all(pair) - knowledge_.known(pair);
+    }
+    differences += missing != depths.missing;
+    ++events;
+  }
+
+  std::uint64_t events = 0;
+  std::uint64_t differences = 0;
+
+ private:
+  const model::Scenario& scenario_;
+  const model::Topology* topology_ = nullptr;
+  Knowledge knowledge_;
+};
+
+TEST_P(Recordings, KnowWhatIsMissingAfterEachEvent) {
+  model::Scenario scenario = scenario_with(GetParam());
+  scenario.wireless.lost_packets = {12, 40, 41, 90};
+  MissingKnowledge probe{scenario};
+  model::RunOptions options;
+  options.probe = &probe;
+  (void)model::simulate(scenario, options);
+  EXPECT_GT(probe.events, 100U);
+  EXPECT_EQ(probe.differences, 0U);
+}
+
 TEST_P(Recordings, FindTheParticipantsOwnSteps) {
   const model::Scenario scenario = scenario_with(GetParam());
   const std::uint64_t events = model::simulate(scenario).events;
@@ -97,7 +145,7 @@ TEST_P(Recordings, FindTheParticipantsOwnSteps) {
 
 INSTANTIATE_TEST_SUITE_P(All, Recordings,
                          testing::Values("paper", "fastdds-2.6.11", "fastdds-3.6",
-                                         "cyclonedds-0.10"),
+                                         "cyclonedds-0.10", "fastdds-server-2.6.11"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase_if(name, [](char c) { return !std::isalnum(c); });
