@@ -13,14 +13,17 @@ usage: build.py --source DIR --program FILE --output DIR [--engine DIR --node FI
 Exit code: 0, or 1 if a page links to nothing or a program fails.
 """
 import argparse
+import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
 import tarfile
 import tempfile
 from pathlib import Path
+from urllib.parse import urlencode
 
 LINK = re.compile(r"(\[[^\]\n]*\])\(([^)\s]+)\)")
 PAGES = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "specs/performance.md"]
@@ -56,7 +59,40 @@ class Site:
         if name in self.staged:
             return
         self.staged.add(name)
-        self.write(name, self.with_links((self.source / name).read_text(encoding="utf-8"), Path(name)))
+        text = self.with_links((self.source / name).read_text(encoding="utf-8"), Path(name))
+        self.write(name, self.with_play(text) if self.has_play and name.startswith("specs/findings/") else text)
+
+    def with_play(self, text: str) -> str:
+        """A finding, with links under its title to what its commands simulate and to the exhibits that they show."""
+        links = {}
+        for line in re.findall(r"(?:^    |`)(?:\./)?stormproof ((?:[^`\n]*\\\n)*[^`\n]*)", text, re.M):
+            words = shlex.split(re.sub(r" --trace \S+", "", line), comments=True)
+            if words[0] == "museum":
+                links.setdefault(f"museum {words[1]}", urlencode({"exhibit": words[1]}))
+            elif words[0] == "simulate" and all(option == "--set" for option in words[2::2]):
+                links.setdefault(re.sub(r"([][])", r"\\\1", " ".join(words)), urlencode({"yaml": self.scenario(words)}))
+        if not links:
+            return text
+        heading, _, rest = text.partition("\n")
+        shown = [f"[{words}](../../play.html#{address})" for words, address in links.items()]
+        return f"{heading}\n\nTo play with: {' · '.join(shown)}\n{rest}"
+
+    def scenario(self, simulate: list[str]) -> str:
+        """What the command simulates, as the head of its trace has it."""
+        with tempfile.TemporaryDirectory() as folder:
+            trace = Path(folder) / "trace"
+            os.mkfifo(trace)
+            run = subprocess.Popen([self.program, *simulate, "--trace", trace], cwd=self.source, stdout=subprocess.DEVNULL)
+            with trace.open(encoding="utf-8") as lines:
+                head = json.loads(lines.readline())
+                run.kill()
+            run.wait()
+        lines = []
+        for key, value in head["scenario"].items():
+            inner = value.items() if isinstance(value, dict) else []
+            lines.append(f"{key}:" if inner else f"{key}: {json.dumps(value)}")
+            lines += [f"  {name}: {json.dumps(one)}" for name, one in inner]
+        return "\n".join(lines) + "\n"
 
     def with_links(self, text: str, page: Path) -> str:
         def link(match: re.Match) -> str:

@@ -236,11 +236,12 @@ std::string answer_text(const FuzzReport& report, const std::optional<exact::Out
   return fmt::format("{}: {}. {}", outlook->headline(), outlook->sentence(), breaches);
 }
 
-/// A storm breaks no property, and is nothing to be content with.
+/// A storm breaks no property, and looks as bad as it does in `simulate`.
 Tone tone_of(const FuzzReport& report, const std::optional<exact::Outlook>& outlook) {
   if (report.violated()) return Tone::bad;
-  const bool calm = outlook && outlook->health() != exact::Health::storm;
-  return report.interrupted || !calm ? Tone::warn : Tone::good;
+  if (outlook && outlook->health() == exact::Health::storm)
+    return report::tone_of(exact::Health::storm);
+  return report.interrupted || !outlook ? Tone::warn : Tone::good;
 }
 
 void add_reservations(Document& document, const FuzzReport& report) {

@@ -11,6 +11,7 @@ import base64
 import gzip
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +20,10 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 from browser import Browser
+
+SOURCE = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(SOURCE / "specs/site"))
+from build import Site  # noqa: E402 - as the site links to the page
 
 OWN = """deployment: {hosts: 3, participants_per_host: 2, endpoints_per_participant: 8}
 dds: {base: jazzy, spdp: {startup_announcements: 2}}
@@ -78,7 +83,18 @@ def compare(browser, page, program, address):
             expect(f"{address} {key}", got[key], expected[key])
         for key, value in got["counts"].items():
             expect(f"{address} {key}", value, expected["counts"][key])
-    print(f"#{address}: {film['t_disc_ns']} ns, {film['events']} events, {len(pairs)} runs compared")
+    print(f"#{address[:90]}: {film['t_disc_ns']} ns, {film['events']} events, {len(pairs)} runs compared")
+
+
+def findings(browser, page, program):
+    """What the site links to from findings is what their commands simulate."""
+    links = set()
+    for finding in sorted((SOURCE / "specs/findings").glob("*.md")):
+        text = Site(SOURCE, program.resolve(), Path(), True).with_play(finding.read_text(encoding="utf-8"))
+        links.update(re.findall(r"\]\(\.\./\.\./play\.html#([^)]*)\)", text))
+    expect("findings lead to the page", len(links) >= 12, True)
+    for address in sorted(links):
+        compare(browser, page, program, address)
 
 
 def step(browser):
@@ -163,6 +179,7 @@ def main():
     try:
         for address in ADDRESSES:
             compare(browser, page, given.program, address)
+        findings(browser, page, given.program)
         browser.open(f"{page}#{ADDRESSES[0]}")
         browser.wait_for(DONE)
         step(browser)
