@@ -38,8 +38,8 @@ std::string json_text(nlohmann::ordered_json content, const Session& session) {
   return report::dumped(with_head(std::move(content), session.command(), established, false));
 }
 
-std::string page(const report::Document& document, const CompositionRequest& request) {
-  return to_text(document, request.to_file ? report::Terminal{} : standard_output());
+report::Terminal terminal_of(const CompositionRequest& request) {
+  return request.to_file ? report::Terminal{} : standard_output();
 }
 
 std::variant<std::string, Complaint> compared(const CompositionRequest& request,
@@ -57,7 +57,7 @@ std::variant<std::string, Complaint> compared(const CompositionRequest& request,
     return json_text(draw::comparison_json(comparison), session);
   }
   if (request.format == DrawFormat::usual || request.format == DrawFormat::text) {
-    return page(draw::comparison_document(comparison), request);
+    return to_text(draw::comparison_document(comparison), terminal_of(request));
   }
   return Complaint{"a comparison is shown as text or json; a drawing shows one composition: --dds"};
 }
@@ -75,7 +75,8 @@ std::variant<std::string, Complaint> draw_composition(const CompositionRequest& 
   switch (request.format) {
     case DrawFormat::usual:
     case DrawFormat::text:
-      return page(draw::composition_document(*composition), request);
+      return to_text(draw::composition_document(*composition, terminal_of(request).columns),
+                     terminal_of(request));
     case DrawFormat::json:
       return json_text(draw::composition_json(*composition), session);
     case DrawFormat::svg:

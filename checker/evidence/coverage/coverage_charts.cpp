@@ -19,6 +19,11 @@ std::string short_name(const std::string& profile) {
              : std::filesystem::path{profile}.filename().string();
 }
 
+bool is_reported(const ProfileStudy& profile, const Configuration& configuration) {
+  return std::ranges::any_of(profile.rows,
+                             [&](const FitRow& row) { return in_scope(configuration, row.scope); });
+}
+
 /// Points of one N_P: measured median against the median of the model, with 10–90 % of the runs.
 plot::Series points(const ProfileStudy& profile, std::uint32_t participants, Measure measure) {
   const double scale = measure == Measure::completion ? 1e-3 : 1;
@@ -27,6 +32,7 @@ plot::Series points(const ProfileStudy& profile, std::uint32_t participants, Mea
   series.mark = plot::Mark::points;
   for (const Pairing& pairing : profile.pairings()) {
     if (pairing.observed->participants_per_host != participants) continue;
+    if (!is_reported(profile, *pairing.observed)) continue;
     const std::vector<double> observed = observed_values(*pairing.observed, measure);
     const auto& model = pairing.predicted->values[static_cast<std::size_t>(measure)];
     if (observed.empty()) continue;
@@ -54,7 +60,10 @@ plot::Chart scatter(const ProfileStudy& profile, Measure measure) {
       participants.push_back(c.participants_per_host);
     }
   }
-  for (const std::uint32_t n : participants) chart.series.push_back(points(profile, n, measure));
+  for (const std::uint32_t n : participants) {
+    plot::Series series = points(profile, n, measure);
+    if (!series.x.empty()) chart.series.push_back(std::move(series));
+  }
   chart.references.push_back({plot::Reference::Kind::diagonal, 0, "equal"});
   return chart;
 }
@@ -66,8 +75,9 @@ plot::Chart calibration(const ProfileStudy& profile) {
       "Share of measured runs up to each quantile of the model runs; the line: exactly calibrated";
   chart.x = {"quantile of the model runs", plot::Scale::linear, 0.0, 1.0, "", {}};
   chart.y = {"share of measured runs", plot::Scale::linear, 0.0, 1.0, "", {}};
+  const std::string& scope = profile.overall_scope();
   for (const FitRow& row : profile.rows) {
-    if (row.scope != "all") continue;
+    if (row.scope != scope) continue;
     if (row.measure != Measure::completion && row.measure != Measure::messages) continue;
     plot::Series series;
     series.name = row.measure == Measure::completion ? "completion" : "messages";

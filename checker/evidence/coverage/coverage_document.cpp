@@ -152,15 +152,11 @@ Section section_of(const ProfileStudy& profile, const Heading& heading,
   return section;
 }
 
-/// Over all configurations, or over the first scope if somebody asked for some only.
 const Fit* overall(const ProfileStudy& profile, Measure measure) {
-  const Fit* first = nullptr;
   for (const FitRow& row : profile.rows) {
-    if (row.measure != measure) continue;
-    if (row.scope == "all") return &row.fit;
-    if (first == nullptr) first = &row.fit;
+    if (row.measure == measure && row.scope == profile.overall_scope()) return &row.fit;
   }
-  return first;
+  return nullptr;
 }
 
 /// One row for each profile and measure: how good it is over all configurations.

@@ -157,6 +157,11 @@ Result<Plan> plan(const std::vector<Observation>& rows,
 
 }  // namespace
 
+const std::string& ProfileStudy::overall_scope() const {
+  const auto all = std::ranges::find(rows, "all", &FitRow::scope);
+  return all == rows.end() ? rows.front().scope : all->scope;
+}
+
 std::vector<Pairing> ProfileStudy::pairings() const {
   std::vector<Pairing> result;
   for (std::size_t k = 0; k < predictions.size(); ++k) {

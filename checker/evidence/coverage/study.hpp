@@ -47,6 +47,9 @@ struct ProfileStudy {
   std::vector<Effect> effects;  ///< relative to the baseline, if there is one
 
   [[nodiscard]] std::vector<Pairing> pairings() const;
+  /// What speaks for the whole: "all", or the first scope if somebody asked for some only. There
+  /// are rows.
+  [[nodiscard]] const std::string& overall_scope() const;
 };
 
 struct Study {

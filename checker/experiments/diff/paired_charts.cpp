@@ -44,6 +44,7 @@ PairedCharts paired_charts(const TellingApart& apart, std::string_view base_name
   PairedCharts charts{
       titled_chart(apart.base_run, apart.base_packets, "Base", base_name),
       titled_chart(apart.candidate_run, apart.candidate_packets, "Candidate", candidate_name)};
+  sequence::share_lanes(charts.base, charts.candidate);
   fold_common_start(charts, start);
   return charts;
 }

@@ -177,6 +177,8 @@ int draw_legend(draw::Svg& svg, const std::vector<LegendEntry>& entries, int lef
     const Pixel center{x + 12.0, static_cast<double>(middle)};
     if (entry.block) {
       svg.rect(x, middle - 5, 24, 10, fill_class(entry.color));
+    } else if (entry.reference) {
+      svg.path(polyline_path({{x * 1.0, center.y}, {x + 24.0, center.y}}), "reference");
     } else {
       if (entry.mark != Mark::points) {
         svg.path(polyline_path({{x * 1.0, center.y}, {x + 24.0, center.y}}),

@@ -64,7 +64,8 @@ struct LegendEntry {
   std::string name;
   std::size_t color = 0;
   Mark mark = Mark::line_and_points;
-  bool block = false;  ///< a filled rectangle: bars
+  bool block = false;      ///< a filled rectangle: bars
+  bool reference = false;  ///< a thin dotted line, which has no colour of its own
 };
 /// Entries in rows from `y` on; returns the first free y below.
 int draw_legend(draw::Svg& svg, const std::vector<LegendEntry>& entries, int left, int y,

@@ -69,7 +69,9 @@ class Drawing {
   void labels() {
     for (const Reference& reference : chart_.references) {
       const auto line = line_of(reference);
-      if (line && !reference.label.empty()) place(beside(*line, reference), reference.label);
+      if (line && !reference.label.empty() && !is_in_legend(reference)) {
+        place(beside(*line, reference), reference.label);
+      }
     }
     for (const Annotation& note : chart_.annotations) {
       if (!x_.contains(note.x) || !y_.contains(note.y)) continue;
@@ -81,12 +83,20 @@ class Drawing {
     std::vector<LegendEntry> entries;
     for (std::size_t k = 0; k < chart_.series.size(); ++k) {
       const Series& one = chart_.series[k];
-      if (!one.name.empty()) entries.push_back({one.name, color(k), one.mark, false});
+      if (!one.name.empty()) entries.push_back({one.name, color(k), one.mark});
+    }
+    for (const Reference& one : chart_.references) {
+      if (!is_in_legend(one) || one.label.empty()) continue;
+      entries.push_back({.name = one.label, .reference = true});
     }
     return entries;
   }
 
  private:
+  /// Data lie along a diagonal, so that no label has room beside it.
+  [[nodiscard]] static bool is_in_legend(const Reference& reference) {
+    return reference.kind == Reference::Kind::diagonal;
+  }
   [[nodiscard]] std::size_t color(std::size_t k) const {
     return chart_.series[k].color.value_or(k);
   }
@@ -132,13 +142,10 @@ class Drawing {
     return Line{at(x1, y1), at(x2, y2)};
   }
 
-  /// Places along a line, best first: a level line has its label above it at the right end, an
-  /// upright one beside it from the top down.
+  /// Places along a level or upright line, best first: the one has its label above it at the right
+  /// end, the other beside it from the top down.
   [[nodiscard]] std::vector<Box> beside(const Line& line, const Reference& reference) const {
     const int width = draw::text_width(reference.label, font_size);
-    if (reference.kind == Reference::Kind::diagonal) {
-      return around({line.second.x, line.second.y - 10}, width);
-    }
     const int x = static_cast<int>(std::lround(line.second.x));
     const int y = static_cast<int>(std::lround(line.second.y));
     std::vector<Box> places;

@@ -50,7 +50,7 @@ struct Reference {
   enum class Kind { diagonal, horizontal, vertical };
   Kind kind = Kind::diagonal;
   double value = 0;     ///< of x or y; not used by the diagonal
-  std::string label{};  ///< beside it; may be empty
+  std::string label{};  ///< beside it, of a diagonal in the legend; may be empty
 };
 
 /// A text beside a point of the chart.

@@ -20,7 +20,7 @@ using report::Section;
 using report::Table;
 using report::Text;
 
-constexpr std::size_t program_width = 92;  ///< of a listing, below two headings
+constexpr std::size_t two_headings = 8;  ///< how far a listing below them is to the right
 
 /// "one, two".
 std::string or_dash(const std::vector<std::string>& names) {
@@ -88,10 +88,10 @@ Section state(const CompositionInfo& composition) {
 }
 
 /// The effects as a program, with their ids at the right margin.
-report::Listing program_listing(const RuleInfo& rule) {
+report::Listing program_listing(const RuleInfo& rule, std::size_t columns) {
   std::size_t margin = 0;
   for (const EffectInfo& effect : rule.effects) margin = std::max(margin, effect.id.size());
-  const std::size_t width = program_width - margin - 2;
+  const std::size_t width = columns - two_headings - margin - 2;
   std::string text;
   for (const ProgramLine& line : program(rule)) {
     const std::string indent(2 * line.depth, ' ');
@@ -109,13 +109,14 @@ report::Listing program_listing(const RuleInfo& rule) {
   return {text.empty() ? "nothing\n" : text};
 }
 
-Section programs(const char* title, const char* about, const std::vector<RuleInfo>& rules) {
+Section programs(const char* title, const char* about, const std::vector<RuleInfo>& rules,
+                 std::size_t columns) {
   Section section{title};
   if (*about != '\0') section.blocks.push_back(report::Paragraph{about});
   for (const RuleInfo& rule : rules) {
     const std::string when =
         rule.trigger.empty() ? "" : fmt::format(": {} ({})", trigger_words(rule), rule.owner);
-    section.blocks.push_back(Section{rule.id + when, "", {program_listing(rule)}});
+    section.blocks.push_back(Section{rule.id + when, "", {program_listing(rule, columns)}});
   }
   return section;
 }
@@ -138,7 +139,7 @@ Section from_outside(const CompositionInfo& composition) {
 
 }  // namespace
 
-report::Document composition_document(const CompositionInfo& composition) {
+report::Document composition_document(const CompositionInfo& composition, std::size_t columns) {
   report::Document document;
   document.title = fmt::format("stormproof draw composition: {}", composition.name);
   document.answer =
@@ -153,9 +154,9 @@ report::Document composition_document(const CompositionInfo& composition) {
       packets(composition),
       timers(composition),
       state(composition),
-      programs("Rules", "", composition.rules),
-      programs("Procedures", "What several rules have in common.", composition.procedures),
-      programs("Steps", "Their contracts: what they may do.", composition.steps)};
+      programs("Rules", "", composition.rules, columns),
+      programs("Procedures", "What several rules have in common.", composition.procedures, columns),
+      programs("Steps", "Their contracts: what they may do.", composition.steps, columns)};
   if (!composition.unused.empty()) document.blocks.push_back(unused(composition));
   if (!composition.from_outside.empty()) document.blocks.push_back(from_outside(composition));
   return document;

@@ -2,19 +2,23 @@
 // data. All of it comes from the rules that run and that proofs are derived from.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "checker/presentation/document/document.hpp"
+#include "checker/presentation/document/render.hpp"
 #include "checker/presentation/json/schema_form.hpp"
 #include "fsm/composition/composition_info.hpp"
 
 namespace stormproof::draw {
 
-/// The page, to be read from the top to the bottom; the ids of effects stand at its right margin.
+/// The page, to be read from the top to the bottom; the ids of effects stand at the right margin of
+/// a text of this width.
 [[nodiscard]] report::Document composition_document(
-    const fsm::composition::CompositionInfo& composition);
+    const fsm::composition::CompositionInfo& composition,
+    std::size_t columns = report::Terminal{}.columns);
 
 /// `composition`, `machines`, `packets`, `timers`, `state`, `facts`, `rules`, `procedures`,
 /// `steps`.

@@ -75,11 +75,14 @@ caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
 details { margin: .4rem 0; }
 summary { cursor: pointer; color: var(--accent); padding: .1rem 0; }
 td details { margin: .15rem 0; font-size: 13px; }
-.plots { display: flex; flex-wrap: wrap; gap: 12px; margin: .8rem 0; align-items: flex-start; }
+.plots { display: grid; gap: 12px; margin: .8rem 0; align-items: start;
+  grid-template-columns: repeat(auto-fill, minmax(min(100%, 520px), 1fr)); }
 .plots > svg, .drawing > svg { display: block; height: auto; }
-.plots > svg { flex: 1 1 auto; max-width: min(100%, calc(1.36 * var(--natural)));
+.plots > svg:only-child { grid-column: 1 / -1; }
+.plots > svg { width: 100%; max-width: min(100%, calc(1.36 * var(--natural)));
   border: 1px solid var(--edge); border-radius: 6px; }
-.drawing > svg { width: 100%; max-width: var(--natural); min-width: calc(.65 * var(--natural)); }
+.drawing { width: fit-content; max-width: 100%; }
+.drawing > svg { width: var(--natural); max-width: 100%; min-width: calc(.65 * var(--natural)); }
 figure { margin: .6rem 0; }
 figcaption { color: var(--soft); font-size: 14px; margin-bottom: .3rem; }
 .drawing { border: 1px solid var(--edge); border-radius: 6px; background: var(--page); }

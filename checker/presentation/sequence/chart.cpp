@@ -32,11 +32,46 @@ std::string legend_of(const Chart& chart) {
   return text;
 }
 
+namespace {
+
+bool is_same_lane(const Chart::Lane& a, const Chart::Lane& b) {
+  return a.title == b.title && a.network == b.network;
+}
+
+/// The lanes of a chart, of which `lanes` has each, become these.
+void take_lanes(Chart& chart, const std::vector<Chart::Lane>& lanes) {
+  std::vector<std::size_t> place;
+  for (const Chart::Lane& lane : chart.lanes) {
+    const auto there = std::ranges::find_if(
+        lanes, [&](const Chart::Lane& one) { return is_same_lane(one, lane); });
+    place.push_back(static_cast<std::size_t>(there - lanes.begin()));
+  }
+  chart.lanes = lanes;
+  for (Chart::Row& row : chart.rows) {
+    for (Chart::Line& line : row.lines) line.lane = place[line.lane];
+  }
+  for (Chart::Packet& packet : chart.packets) {
+    for (Chart::Block& block : packet.blocks) block.lane = place[block.lane];
+    for (auto* end : {&packet.sender, &packet.unknown_end}) {
+      if (*end) *end = place[**end];
+    }
+  }
+}
+
+}  // namespace
+
+void share_lanes(Chart& first, Chart& second) {
+  std::vector<Chart::Lane> lanes = first.lanes;
+  for (const Chart::Lane& lane : second.lanes) {
+    const auto is_this = [&](const Chart::Lane& one) { return is_same_lane(one, lane); };
+    if (std::ranges::none_of(lanes, is_this)) lanes.push_back(lane);
+  }
+  take_lanes(first, lanes);
+  take_lanes(second, lanes);
+}
+
 std::size_t common_rows(const Chart& one, const Chart& other) {
-  const auto lanes = [](const Chart::Lane& a, const Chart::Lane& b) {
-    return a.title == b.title && a.network == b.network;
-  };
-  if (!std::ranges::equal(one.lanes, other.lanes, lanes)) return 0;
+  if (!std::ranges::equal(one.lanes, other.lanes, is_same_lane)) return 0;
   const auto lines = [](const Chart::Line& a, const Chart::Line& b) {
     return a.kind == b.kind && a.lane == b.lane && words_of(a) == words_of(b);
   };

@@ -86,6 +86,9 @@ struct Chart {
 /// What the notation of this chart means, dashed arrows included; may be empty.
 [[nodiscard]] std::string legend_of(const Chart& chart);
 
+/// Gives both charts the lanes of both, in one order: that of the first, and what only the second
+/// has at the end. A lane on which nothing happens stays empty.
+void share_lanes(Chart& first, Chart& second);
 /// How many rows two charts with the same lanes begin with that say the same.
 [[nodiscard]] std::size_t common_rows(const Chart& one, const Chart& other);
 /// Replaces the first `rows` rows by a gap that says `text`.
