@@ -2,7 +2,10 @@
 // ACKNACK listed since they were last generated. What counts is what the writer's participant has
 // received after its start; an initial ACKNACK asks for something only if the profile says so.
 // Fast DDS: what a creation pushes is initial, everything that the async run sends must be asked
-// for, and an ACKNACK asks for its bitmap from its base on.
+// for, and an ACKNACK asks for its bitmap from its base on. A sender that stalls sends later than
+// it has serialized: what is asked for in between is asked for anew.
+#include <array>
+
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
 #include "props/monitors/monitors.hpp"
@@ -53,26 +56,70 @@ class RepairRequests : public Observer {
     const bool repair = pushes_at_creation_ ? !creates : packet.from_repair;
     if (repair) {
       repairs_ += packet.descriptors.count();
-      const std::uint32_t d = asked_.first_of(packet.relation(), packet.descriptors, false);
+      const std::uint32_t d = not_asked(packet);
       if (d != UINT32_MAX) {
         object_now("At " + time_text(now()) + " the writer repairs " +
                    descriptor_text(topology(), packet.relation(), d) +
                    ", which no ACKNACK has listed since it was last generated.");
       }
     }
-    asked_.remove(packet.relation(), packet.descriptors);
+    forget(packet);
   }
 
   bool pushes_at_creation_;
   bool initial_asks_;
-  RelationWords asked_;
   std::uint64_t repairs_ = 0;
+
+ protected:
+  /// A descriptor of the DATA that nobody has asked for; UINT32_MAX if there is none.
+  [[nodiscard]] virtual std::uint32_t not_asked(const model::Packet& data) const {
+    return asked_.first_of(data.relation(), data.descriptors, false);
+  }
+  virtual void forget(const model::Packet& data) {
+    asked_.remove(data.relation(), data.descriptors);
+  }
+
+  RelationWords asked_;
+};
+
+/// Of senders that stall.
+class StalledRepairRequests : public RepairRequests {
+ public:
+  static constexpr std::array hears_machines{model::Report::descriptor_transition};
+
+  using RepairRequests::RepairRequests;
+
+  void run_started(const model::Topology& topology) override {
+    RepairRequests::run_started(topology);
+    serialized_.reset(topology);
+  }
+  void transition(const model::Transition& fired) override {
+    RepairRequests::transition(fired);
+    if (fired.event != "Serialized") return;
+    std::uint64_t& asked = asked_.word(fired.machine.subject, fired.first_word);
+    serialized_.word(fired.machine.subject, fired.first_word) |= asked & fired.descriptors;
+    asked &= ~fired.descriptors;
+  }
+
+ protected:
+  [[nodiscard]] std::uint32_t not_asked(const model::Packet& data) const override {
+    return serialized_.first_of(data.relation(), data.descriptors, false);
+  }
+  void forget(const model::Packet& data) override {
+    serialized_.remove(data.relation(), data.descriptors);
+  }
+
+ private:
+  RelationWords serialized_;  ///< on request, and not sent yet
 };
 
 }  // namespace
 
 MonitorPtr watch_repair_requests(const model::Scenario& scenario) {
   if (has_samples(scenario)) return watch_repeated_samples();
+  if (scenario.wireless.sender == model::Sender::stalls) {
+    return attentive<StalledRepairRequests>(scenario);
+  }
   return attentive<RepairRequests>(scenario);
 }
 

@@ -38,6 +38,18 @@ std::pair<double, double> range_of_counts(const Report& report) {
   return {range.low() / 1.5, range.high() * 1.5};
 }
 
+/// Of all variants at all sizes: surfaces that stand side by side have the same colours.
+std::pair<double, double> range_of_ratios(const Report& report) {
+  const Measures measures{report.results};
+  plot::DataRange range{plot::Scale::log};
+  for (std::size_t v = 0; v < report.results.plan.variants.size(); ++v) {
+    for (const Configuration& one : report.results.plan.configurations) {
+      range.add(measures.wireless_to_wired(v, one).value_or(gap));
+    }
+  }
+  return {range.low(), range.high()};
+}
+
 }  // namespace
 
 std::string counts_plot(const Report& report, Network network) {
@@ -75,6 +87,7 @@ std::string surface_plot(const Report& report, std::size_t variant) {
   map.y_label = "N_P, participants per host";
   map.value_label = "ratio";
   map.scale = plot::Scale::log;
+  std::tie(map.min, map.max) = range_of_ratios(report);
   map.width = plot::beside;
   std::set<std::uint32_t> columns;
   for (const Configuration& one : report.results.plan.configurations) {

@@ -144,12 +144,13 @@ std::string environments_plot(const Report& report, std::size_t variant, Class w
   };
   const Plan& plan = report.results.plan;
   chart.series.push_back(over_workload(plan, "Wi-Fi", on(Network::wireless)));
-  chart.series.push_back(over_workload(plan, "wired", on(Network::wired)));
   chart.series.push_back(over_workload(plan, "loopback", [&](const Configuration& one) {
     return measures.loopback_messages(variant, what, one);
   }));
+  // Last, as a line through the points of loopback where they are equal.
+  chart.series.push_back(over_workload(plan, "wired", on(Network::wired)));
   for (plot::Series& series : chart.series) series.mark = plot::Mark::line;
-  chart.series[2].mark = plot::Mark::points;
+  chart.series[1].mark = plot::Mark::points;
   plot::Series reference = over_workload(plan, "failure-free", [&](const Configuration& one) {
     return std::optional{measures.reference_messages(variant, what, one)};
   });

@@ -81,7 +81,7 @@ std::string to_svg(const HeatMap& chart) {
   for (const std::vector<double>& row : chart.value) {
     for (const double value : row) range.add(value);
   }
-  const ScaledAxis colors{Axis{"", chart.scale, {}, {}, chart.unit, {}}, range, 6};
+  const ScaledAxis colors{Axis{"", chart.scale, chart.min, chart.max, chart.unit, {}}, range, 6};
   draw::Svg svg{chart.title, chart.description};
   int names = 0;
   for (const std::string& name : chart.y) {

@@ -123,7 +123,9 @@ struct HeatMap {
   std::string value_label{};                 ///< of the colour scale
   std::string unit{};                        ///< as in Axis
   Scale scale = Scale::linear;               ///< of the colours
-  int width = 760;                           ///< pixels; the height follows
+  std::optional<double> min{};               ///< of the colours; absent: those of the data
+  std::optional<double> max{};
+  int width = 760;  ///< pixels; the height follows
 };
 [[nodiscard]] std::string to_svg(const HeatMap& chart);
 

@@ -213,9 +213,12 @@ class Page {
   std::string add(const Table& block, std::size_t level) {
     const bool stacked =
         std::ranges::any_of(block.rows, [](const Table::Row& one) { return !one.details.empty(); });
+    constexpr std::ptrdiff_t many_columns = 10;
+    const auto columns = std::ranges::count_if(
+        block.columns, [](const Column& one) { return page_sees(one.audience); });
     std::string text =
-        fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"cards{}\">\n",
-                    stacked ? " stacked" : "");
+        fmt::format("<div class=\"scroll\" tabindex=\"0\"><table class=\"cards{}{}\">\n",
+                    stacked ? " stacked" : "", columns >= many_columns ? " dense" : "");
     if (!block.caption.empty()) text += "<caption>" + html_text(block.caption) + "</caption>\n";
     text += "<thead><tr>";
     for (const Column& column : block.columns) {

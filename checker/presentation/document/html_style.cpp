@@ -69,6 +69,7 @@ td.number, th.number { text-align: right; white-space: nowrap; font-variant-nume
 td.tight { white-space: nowrap; }
 tr.different td { background: var(--panel); }
 table.wide { width: 100%; }
+.dense th, .dense td { padding: .3rem .35rem; min-width: 3.2rem; } .dense .badge { padding: 0 .35rem; }
 caption { text-align: left; color: var(--soft); padding-bottom: .3rem; }
 .facts { display: grid; grid-template-columns: max-content 1fr; gap: .15rem .9rem; margin: .5rem 0; }
 .facts dt { color: var(--soft); } .facts dd { margin: 0; overflow-wrap: anywhere; }
