@@ -118,9 +118,12 @@ tune::Context context_of(const TuneArguments& arguments, const tune::Subject& su
   context.prerequisites = tune::prerequisites(subject, best.scenario.dds);
   if (best.plan) {
     context.prerequisites.push_back(
-        fmt::format("Start processes {}; '{} launch {} --export DIR' writes launch files and "
-                    "systemd units that do.",
-                    launch::words_of(*best.plan), report::program(), arguments.scenario));
+        fmt::format("Start processes {}.", launch::words_of(*best.plan)));
+    if (!written.launch.empty()) {
+      context.prerequisites.back() +=
+          fmt::format(" {} does, and others beside it for the other hosts or as systemd units.",
+                      written.launch.front());
+    }
   }
   if (const auto file = written.files.find(best.name); file != written.files.end()) {
     if (!best.plan) context.repeat = repeat_line(arguments, subject, report, file->second);
@@ -145,7 +148,7 @@ Outcome run(TuneArguments& arguments, Session& session) {
   if (!report) return report.error();
   const std::string origin =
       fmt::format("stormproof tune on {} (seed {})", arguments.scenario, arguments.options.seed);
-  const TuneFiles written = write_files(output, origin, *subject, *report);
+  const TuneFiles written = write_files(output, origin, arguments.scenario, *subject, *report);
   const tune::Context context = context_of(arguments, *subject, *report, written);
   Answer answer;
   if (written.error) answer.complaint = *written.error;

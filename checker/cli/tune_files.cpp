@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include "checker/experiments/launch/launch_report.hpp"
 #include "checker/experiments/tune/deploy.hpp"
 
 namespace stormproof::cli {
@@ -59,8 +60,8 @@ std::optional<std::string> TuneOutput::write(const std::string& name, const std:
 
 std::optional<std::string> TuneOutput::error() const { return folder_ ? folder_->error() : error_; }
 
-TuneFiles write_files(TuneOutput& output, const std::string& origin, const tune::Subject& subject,
-                      const tune::Report& report) {
+TuneFiles write_files(TuneOutput& output, const std::string& origin, const std::string& named,
+                      const tune::Subject& subject, const tune::Report& report) {
   TuneFiles written;
   const bool better = report.answer == tune::Answer::better;
   if (!output.wanted() || report.answer == tune::Answer::interrupted) return written;
@@ -73,11 +74,18 @@ TuneFiles write_files(TuneOutput& output, const std::string& origin, const tune:
     const auto needs = tune::prerequisites(subject, profile);
     const auto xml = tune::deployable(subject, profile, comment_of(origin, subject, row, needs),
                                       SpecPath::standard());
-    if (!xml) return {{}, to_string(xml.error())};
+    if (!xml) return {{}, {}, to_string(xml.error())};
     texts.push_back({row.name, file_name(row, is_recommended), *xml});
   }
   for (const auto& [row, name, xml] : texts) {
     if (const auto path = output.write(name, xml)) written.files[row] = *path;
+  }
+  if (const tune::Row* best = better ? &report.rows[*report.recommended] : nullptr;
+      best != nullptr && best->plan && !output.is_one_file()) {
+    for (const launch::LaunchFile& file : launch::launch_files(
+             "with recommended.xml", best->scenario, *best->plan, named, report.compared.first)) {
+      if (const auto path = output.write(file.name, file.text)) written.launch.push_back(*path);
+    }
   }
   written.error = output.error();
   return written;

@@ -1,9 +1,11 @@
-// The files of a tuning: the recommended setting and the front, as the vendor's XML.
+// The files of a tuning: the recommended setting and the front, as the vendor's XML, and the launch
+// plan that is recommended with it.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "checker/cli/output_file.hpp"
 #include "checker/cli/output_folder.hpp"
@@ -33,12 +35,15 @@ class TuneOutput {
 
 struct TuneFiles {
   std::map<std::string, std::string, std::less<>> files;  ///< name of a row → its file
+  std::vector<std::string> launch;  ///< files that start processes by the recommended plan
   std::optional<std::string> error;
 };
 
 /// `origin`: how the settings were found, for the comment on top of each file. Nothing is written
-/// for a study that was interrupted, nor a single file if nothing is better.
+/// for a study that was interrupted, nor a single file if nothing is better, nor a launch plan
+/// beside a single file. `named`: the scenario as it was given.
 [[nodiscard]] TuneFiles write_files(TuneOutput& output, const std::string& origin,
-                                    const tune::Subject& subject, const tune::Report& report);
+                                    const std::string& named, const tune::Subject& subject,
+                                    const tune::Report& report);
 
 }  // namespace stormproof::cli

@@ -14,11 +14,8 @@ Result<std::vector<DeploymentFile>> files_of(const Attempt& attempt, const Reque
                                              const model::config::SpecPath& specs) {
   auto files = compare::deployment_files(attempt.candidate, attempt.scenario.dds, specs);
   if (!files || !attempt.plan) return files;
-  const launch::Setting setting{"", attempt.name, attempt.scenario, {}, {}};
-  launch::Request plan;
-  plan.scenario = request.scenario;
-  plan.seed = request.seed;
-  for (launch::LaunchFile& file : launch_files(setting, *attempt.plan, plan)) {
+  for (launch::LaunchFile& file : launch::launch_files(
+           attempt.name, attempt.scenario, *attempt.plan, request.scenario, request.seed)) {
     files->push_back({std::move(file.name), std::move(file.text)});
   }
   return files;

@@ -83,4 +83,13 @@ std::vector<LaunchFile> launch_files(const Setting& setting, const Plan& plan,
   return files;
 }
 
+std::vector<LaunchFile> launch_files(const std::string& what, const model::Scenario& scenario,
+                                     const Plan& plan, const std::string& named,
+                                     std::uint64_t seed) {
+  Request request;
+  request.scenario = named;
+  request.seed = seed;
+  return launch_files(Setting{"", what, scenario, {}, {}}, plan, request);
+}
+
 }  // namespace stormproof::launch

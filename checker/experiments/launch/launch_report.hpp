@@ -31,5 +31,11 @@ struct LaunchFile {
 /// starts of the plan are not known.
 [[nodiscard]] std::vector<LaunchFile> launch_files(const Setting& setting, const Plan& plan,
                                                    const Request& request);
+/// The same of a plan that another verb has found. `what` is set beside it, `named` is the scenario
+/// as it was given, and `seed` draws its starts.
+[[nodiscard]] std::vector<LaunchFile> launch_files(const std::string& what,
+                                                   const model::Scenario& scenario,
+                                                   const Plan& plan, const std::string& named,
+                                                   std::uint64_t seed);
 
 }  // namespace stormproof::launch
