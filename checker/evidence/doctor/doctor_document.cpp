@@ -204,7 +204,9 @@ Section why_apart(const Report& report) {
     table.rows.push_back({{one.id, report::percent(one.probability, 1),
                            fmt::format("{}. To do: {}.", one.sentence, one.remedy)}});
   }
-  return {"Why they do not see each other", "reasons", {std::move(table)}};
+  const bool is_apart = std::ranges::any_of(report.reasons, &Reason::keeps_apart);
+  return {
+      is_apart ? "Why they do not see each other" : "What happened", "reasons", {std::move(table)}};
 }
 
 /// What was strange in the capture: damaged, cut, forged, or not to be looked into.

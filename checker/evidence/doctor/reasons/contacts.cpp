@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "checker/evidence/doctor/reasons/ports.hpp"
+#include "checker/presentation/text/numbers.hpp"
 
 namespace stormproof::doctor {
 
@@ -61,6 +62,15 @@ std::uint64_t Contacts::messages(std::size_t from, std::size_t to) const {
   return found == messages_.end() ? 0 : found->second;
 }
 
+std::optional<std::size_t> Contacts::number_of(const capture::GuidPrefix& prefix) const {
+  const auto found = number_.find(prefix);
+  return found == number_.end() ? std::nullopt : std::optional{found->second};
+}
+
+std::string Contacts::time_text(std::int64_t time_ns) const {
+  return report::duration(model::Nanoseconds{time_ns - conversation_.first_ns});
+}
+
 std::string Contacts::host_text(std::size_t host) const {
   std::set<capture::Address> addresses;
   for (const std::size_t k : hosts_[host]) {
@@ -75,6 +85,22 @@ std::string Contacts::host_text(std::size_t host) const {
 std::string Contacts::text(std::size_t participant) const {
   return fmt::format("participant {} of {}", participant,
                      host_text(topology().participants[participant].host));
+}
+
+std::int64_t lease_of(const Contacts& contacts, std::size_t participant) {
+  constexpr std::int64_t usual_ns = 20'000'000'000;
+  return contacts.topology().participants[participant].lease_ns.value_or(usual_ns);
+}
+
+std::int64_t longest_pause_ns(const Contacts& contacts, std::size_t participant) {
+  const std::vector<std::int64_t>& announced = contacts.of(participant).announced;
+  std::int64_t longest_ns = 8'000'000'000;
+  for (std::size_t k = 1; k < announced.size(); ++k) {
+    // Announcements that an outage has swallowed do not count.
+    const std::int64_t gap_ns = announced[k] - announced[k - 1];
+    if (gap_ns < lease_of(contacts, participant) / 2) longest_ns = std::max(longest_ns, gap_ns);
+  }
+  return std::max(lease_of(contacts, participant) / 2, longest_ns + longest_ns / 10);
 }
 
 }  // namespace stormproof::doctor

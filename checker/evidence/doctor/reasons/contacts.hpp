@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -33,6 +34,10 @@ class Contacts {
   [[nodiscard]] const capture::Topology& topology() const { return conversation_.topology; }
   [[nodiscard]] const Contact& of(std::size_t participant) const { return all_[participant]; }
   [[nodiscard]] std::size_t size() const { return all_.size(); }
+  /// The number of the participant; nothing of one that the topology has not.
+  [[nodiscard]] std::optional<std::size_t> number_of(const capture::GuidPrefix& prefix) const;
+  /// "12.30 s": since the capture began.
+  [[nodiscard]] std::string time_text(std::int64_t time_ns) const;
   /// SEDP messages from one to another participant of another host.
   [[nodiscard]] std::uint64_t messages(std::size_t from, std::size_t to) const;
   /// SEDP messages to participants that announce nothing here, by where they go.
@@ -56,5 +61,11 @@ class Contacts {
   std::map<capture::UdpEnd, std::uint64_t> unseen_;
   std::vector<std::vector<std::size_t>> hosts_;
 };
+
+/// What the participant says its lease is, or the longest of a shipped profile.
+[[nodiscard]] std::int64_t lease_of(const Contacts& contacts, std::size_t participant);
+/// What is no silence of a participant yet: half its lease, and longer than it ever waited between
+/// two announcements, or than Cyclone DDS does.
+[[nodiscard]] std::int64_t longest_pause_ns(const Contacts& contacts, std::size_t participant);
 
 }  // namespace stormproof::doctor

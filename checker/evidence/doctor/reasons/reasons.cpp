@@ -8,10 +8,10 @@ namespace stormproof::doctor {
 namespace {
 
 using Row = void (*)(const Contacts&, std::vector<Reason>&);
-constexpr std::array<Row, 12> rows{
-    different_domains,     one_host_is_heard, same_machine_id,    no_answers,
-    unreachable_addresses, local_host_only,   different_products, unequal_qos,
-    ports_of_peers,        no_number_is_left, went_away,          began_late};
+constexpr std::array<Row, 14> rows{
+    different_domains, one_host_is_heard,  same_machine_id, no_answers,     unreachable_addresses,
+    local_host_only,   different_products, unequal_qos,     ports_of_peers, no_number_is_left,
+    old_identity,      network_failed,     went_away,       began_late};
 
 }  // namespace
 

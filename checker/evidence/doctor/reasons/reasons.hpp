@@ -23,6 +23,8 @@ void different_products(const Contacts& contacts, std::vector<Reason>& found);
 void unequal_qos(const Contacts& contacts, std::vector<Reason>& found);
 void ports_of_peers(const Contacts& contacts, std::vector<Reason>& found);
 void no_number_is_left(const Contacts& contacts, std::vector<Reason>& found);
+void old_identity(const Contacts& contacts, std::vector<Reason>& found);
+void network_failed(const Contacts& contacts, std::vector<Reason>& found);
 void went_away(const Contacts& contacts, std::vector<Reason>& found);
 void began_late(const Contacts& contacts, std::vector<Reason>& found);
 

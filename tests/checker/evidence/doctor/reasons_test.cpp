@@ -50,9 +50,14 @@ class Built {
     return *this;
   }
   Built& acknowledge(std::uint8_t from, std::uint8_t to, std::int64_t at_us) {
+    return acknowledge_up_to(from, to, 3, at_us);
+  }
+  /// Everything below `base`.
+  Built& acknowledge_up_to(std::uint8_t from, std::uint8_t to, std::int64_t base,
+                           std::int64_t at_us) {
     for (const capture::EntityId writer : {pub, sub}) {
       send(at_us, {home(from), home(to)},
-           Message{prefix(from)}.to(prefix(to)).acknack(writer, 3, 0, 0, true));
+           Message{prefix(from)}.to(prefix(to)).acknack(writer, base, 0, 0, true));
     }
     return *this;
   }
@@ -62,6 +67,24 @@ class Built {
         .tell(other, one, at_us + 10)
         .acknowledge(one, other, at_us + 20)
         .acknowledge(other, one, at_us + 30);
+  }
+
+  /// A reader whose state is new asks from the beginning.
+  Built& begin_anew(std::uint8_t from, std::uint8_t to, std::int64_t at_us) {
+    for (const capture::EntityId writer : {pub, sub}) {
+      send(at_us, {home(from), home(to)},
+           Message{prefix(from)}.to(prefix(to)).acknack(writer, 1, 2, 0b11, true));
+    }
+    return *this;
+  }
+  /// HEARTBEATs of both streams.
+  Built& ask(std::uint8_t from, std::uint8_t to, std::int64_t at_us, std::int64_t last = 2,
+             std::uint32_t count = 2) {
+    for (const capture::EntityId writer : {pub, sub}) {
+      send(at_us, {home(from), home(to)},
+           Message{prefix(from)}.to(prefix(to)).heartbeat(writer, 1, last, count));
+    }
+    return *this;
   }
 
   Built& igmp(std::uint8_t who, std::uint8_t type, std::int64_t at_us) {
@@ -335,6 +358,119 @@ TEST(Reasons, SomebodyWhoFallsSilent) {
   EXPECT_EQ(report.health, Health::healthy) << "it was discovered";
 }
 
+/// Both announce themselves every 3 s from 3 s until `until_s`, but for those who do not in
+/// between.
+Built announcing(int until_s, std::pair<int, int> away_s = {}, bool is_one_alone = false) {
+  Built built = Built{}.announce(1, 0).announce(2, 5).discover(1, 2, 100);
+  for (int s = 3; s <= until_s; s += 3) {
+    const bool is_away = s > away_s.first && s < away_s.second;
+    if (!is_away || is_one_alone) built.announce(1, s * second);
+    if (!is_away) built.announce(2, s * second + 5);
+  }
+  return built;
+}
+
+TEST(Reasons, BothForgotEachOther) {
+  const Conversation conversation = announcing(36)
+                                        .begin_anew(1, 2, 37 * second)
+                                        .begin_anew(2, 1, 37 * second + 5)
+                                        .discover(1, 2, 38 * second)
+                                        .conversation();
+  const Report report = examine(conversation);
+  ASSERT_NE(find(report, "outage"), nullptr) << list(report);
+  const std::string& sentence = find(report, "outage")->sentence;
+  EXPECT_NE(sentence.find("host 0 (10.0.0.1) and host 1 (10.0.0.2) forgot each other (2 pairs)"),
+            std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("until 37.00 s"), std::string::npos) << sentence;
+  EXPECT_FALSE(find(report, "outage")->keeps_apart);
+  EXPECT_EQ(report.what_keeps_apart(), nullptr) << list(report);
+}
+
+TEST(Reasons, OneSideForgotTheOther) {
+  const Conversation conversation = announcing(36)
+                                        .begin_anew(1, 2, 37 * second)
+                                        .tell(2, 1, 38 * second)
+                                        .acknowledge(1, 2, 38 * second + 20)
+                                        .conversation();
+  const Report report = examine(conversation);
+  ASSERT_NE(find(report, "outage"), nullptr) << list(report);
+  EXPECT_NE(find(report, "outage")
+                ->sentence.find("of host 0 (10.0.0.1) forgot those of host 1 "
+                                "(10.0.0.2), which kept them (1 pair)"),
+            std::string::npos)
+      << list(report);
+}
+
+TEST(Reasons, AnAcknackThatAnotherOvertookIsNoOutage) {
+  const Conversation conversation = announcing(9).begin_anew(1, 2, 130).conversation();
+  EXPECT_EQ(find(examine(conversation), "outage"), nullptr) << list(examine(conversation));
+}
+
+/// Discovered, then asked `times` in 6 s and answered by nobody, then again.
+Report asked_in_vain(int times) {
+  Built built = Built{}.announce(1, 0).announce(2, 5).discover(1, 2, 100);
+  for (int k = 1; k <= times; ++k) {
+    built.ask(1, 2, k * 6 * second / times).ask(2, 1, k * 6 * second / times + 5);
+  }
+  const Conversation conversation =
+      built.acknowledge(1, 2, 7 * second).acknowledge(2, 1, 7 * second).conversation();
+  Report report = examine(conversation);
+  EXPECT_EQ(report.what_keeps_apart(), nullptr) << list(report);
+  std::erase_if(report.reasons, [](const Reason& one) { return one.id != "outage"; });
+  return report;
+}
+
+TEST(Reasons, NobodyAnsweredForAWhile) {
+  const Report report = asked_in_vain(6);
+  ASSERT_EQ(report.reasons.size(), 1U);
+  EXPECT_NE(report.reasons.front().sentence.find("did not answer each other"), std::string::npos);
+  // Answers may wait behind what is being sent; and a few may have been lost.
+  EXPECT_TRUE(asked_in_vain(60).reasons.empty());
+  EXPECT_TRUE(asked_in_vain(4).reasons.empty());
+}
+
+TEST(Reasons, AHostThatIsNotHeardForAWhile) {
+  const Conversation away = announcing(36, {9, 24}, true).conversation();
+  const Report report = examine(away);
+  ASSERT_NE(find(report, "outage"), nullptr) << list(report);
+  EXPECT_NE(find(report, "outage")->sentence.find("nothing was heard of host 1 (10.0.0.2)"),
+            std::string::npos)
+      << list(report);
+  // If nobody is heard, it is the capture that paused.
+  const Conversation paused = announcing(36, {9, 24}).conversation();
+  EXPECT_EQ(find(examine(paused), "outage"), nullptr) << list(examine(paused));
+  EXPECT_TRUE(examine(announcing(36).conversation()).reasons.empty());
+}
+
+TEST(Reasons, AGhostIsKeptUntilItsLeaseIsOver) {
+  const Conversation conversation = announcing(18, {6, 60}, true).conversation();
+  const Report report = examine(conversation);
+  ASSERT_NE(find(report, "ghost"), nullptr) << list(report);
+  EXPECT_NE(find(report, "ghost")->sentence.find("participant 1"), std::string::npos);
+  EXPECT_EQ(find(report, "fell_silent"), nullptr) << "its lease is not over";
+}
+
+TEST(Reasons, WhoComesBackUnderItsOldIdentityIsNotObeyed) {
+  const auto restarted = [](std::int64_t acknowledged) {
+    Built built = Built{}.announce(1, 0).announce(2, 5).discover(1, 2, 100);
+    built.ask(1, 2, 2 * second, 12, 40).announce(1, 9 * second).ask(1, 2, 10 * second, 2, 1);
+    return built.acknowledge_up_to(2, 1, acknowledged, 10 * second + 20).conversation();
+  };
+  const Conversation deaf = restarted(13);
+  const Report report = examine(deaf);
+  ASSERT_NE(find(report, "old_identity"), nullptr) << list(report);
+  EXPECT_NE(find(report, "old_identity")
+                ->sentence.find("participant 0 of host 0 (10.0.0.1) came back under its old "
+                                "identity 10.00 s after the capture began"),
+            std::string::npos)
+      << list(report);
+  EXPECT_NE(find(report, "old_identity")->sentence.find("(its last number then was 12, now 2)"),
+            std::string::npos);
+  const Conversation obeyed = restarted(3);
+  EXPECT_EQ(find(examine(obeyed), "old_identity"), nullptr);
+}
+
 TEST(Reasons, OfNoShippedCaptureThatIsGood) {
   std::size_t captures = 0;
   for (const auto& file :
@@ -345,6 +481,9 @@ TEST(Reasons, OfNoShippedCaptureThatIsGood) {
     ASSERT_TRUE(conversation) << path;
     const Report report = examine(*conversation);
     EXPECT_EQ(report.what_keeps_apart(), nullptr) << path << "\n" << list(report);
+    for (const char* id : {"outage", "ghost", "old_identity"}) {
+      EXPECT_EQ(find(report, id), nullptr) << path << "\n" << list(report);
+    }
     EXPECT_NE(report.health, Health::unmatched) << path << "\n" << list(report);
     ++captures;
   }
