@@ -64,6 +64,12 @@ class CaptureProbe::Implementation {
     if (traits_.has_control_relations) control_.emplace(topology, scenario_);
   }
 
+  /// A process counts from 1, also if it takes the GUID of the one before it.
+  void start_anew(std::uint32_t participant) {
+    std::erase_if(counts_, [&](const auto& count) { return count.first.first == participant; });
+    of_server_.start_anew(participant);
+  }
+
   void announce(const model::Packet& packet, std::uint32_t source) {
     announce(packet, source, write::discovery_group());
   }
@@ -317,6 +323,10 @@ CaptureProbe::~CaptureProbe() = default;
 
 void CaptureProbe::run_started(const model::Topology& topology) {
   implementation_->start(topology);
+}
+
+void CaptureProbe::event_started(const model::Event& event) {
+  if (event.kind == model::EventKind::participant_start) implementation_->start_anew(event.subject);
 }
 
 void CaptureProbe::emitted(const model::Packet& packet, std::uint32_t source,

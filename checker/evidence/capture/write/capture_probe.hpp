@@ -36,6 +36,7 @@ class CaptureProbe final : public model::Probe {
   ~CaptureProbe() override;
 
   void run_started(const model::Topology& topology) override;
+  void event_started(const model::Event& event) override;
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override;
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override;

@@ -27,6 +27,11 @@ class ServerMessages {
   /// Of a registration, or of what is relayed, and their HEARTBEATs and ACKNACKs.
   [[nodiscard]] Buffer message(const model::Packet& packet, std::uint32_t source,
                                std::uint32_t destination, std::int64_t time_ns);
+  /// The participant is a new process.
+  void start_anew(std::uint32_t participant) {
+    registered_.erase(participant);
+    std::erase_if(counts_, [&](const auto& count) { return count.first.first == participant; });
+  }
 
  private:
   void register_with(MessageWriter& out, const model::Packet& packet, std::uint32_t source,

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/doctor/reasons/old_identity.hpp"
 #include "checker/evidence/doctor/reasons/reasons.hpp"
 #include "checker/presentation/text/numbers.hpp"
 #include "checker/presentation/text/plain_text.hpp"
@@ -55,6 +56,9 @@ struct Between {
 class Listener {
  public:
   explicit Listener(const Contacts& contacts) : contacts_{contacts} {
+    for (const auto& [who, writer] : writer_lives(contacts)) {
+      if (writer.is_back()) restarted_.insert(who.first);
+    }
     for (std::size_t k = 0; k < contacts.counting().classes.size(); ++k) {
       add(contacts.conversation().events[k]);
     }
@@ -101,18 +105,21 @@ class Listener {
   void heard(Between& pair, std::size_t side, const Event& event,
              const capture::AcknackEvent& acknack, std::pair<std::size_t, std::size_t> who) {
     Answered& last = answered_[{who.first, who.second, event.writer}];
-    if (acknack.missing.base < last.base && event.time_ns - last.time_ns > second_ns) {
+    const bool is_anew =
+        acknack.missing.base < last.base && event.time_ns - last.time_ns > second_ns;
+    if (is_anew && !restarted_.contains(who.first)) {
       pair.anew.insert(who);
       pair.last_before_ns = std::max(pair.last_before_ns, last.time_ns);
       pair.again_ns = std::max(pair.again_ns, event.time_ns);
       ++pair.forgot[side];
-      last.base = 0;
     }
+    if (is_anew) last.base = 0;
     last.base = std::max(last.base, acknack.missing.base);
     last.time_ns = event.time_ns;
   }
 
   const Contacts& contacts_;
+  std::set<std::size_t> restarted_;  ///< their readers are new ones, whatever the network does
   std::map<std::pair<std::size_t, std::size_t>, Between> pairs_;
   std::map<std::tuple<std::size_t, std::size_t, EntityId>, Answered> answered_;
 };
