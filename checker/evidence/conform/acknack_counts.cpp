@@ -64,7 +64,7 @@ AckNackCounts::AckNackCounts(const Dialogue& dialogue, bool of_each_writer) {
   for (auto& [reader, said] : readers) {
     std::ranges::sort(said, {}, [](const Said& one) { return one.answer->event; });
     const bool shows_all = !of_each_writer && !dialogue.has_neighbour[*reader.destination] &&
-                           !dialogue.server && !dialogue.ends_early;
+                           !dialogue.server && dialogue.ends_early == nullptr;
     if (auto fault = judge(said, shows_all)) faults_.emplace(fault->place, *std::move(fault));
   }
 }

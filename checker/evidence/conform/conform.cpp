@@ -295,11 +295,7 @@ class Check {
     all.emplace_back(
         "the capture holds everything that left the hosts since before the first announcement");
     all.emplace_back("between two participants datagrams arrive in order, or are lost");
-    if (dialogue_.ends_early) {
-      all.emplace_back(
-          "what follows the first participant or endpoint that leaves is not looked at: discovery "
-          "has no rule for leaving");
-    }
+    if (dialogue_.ends_early != nullptr) all.emplace_back(dialogue_.ends_early);
     if (std::find(dialogue_.has_neighbour.begin(), dialogue_.has_neighbour.end(), true) !=
         dialogue_.has_neighbour.end()) {
       all.emplace_back(

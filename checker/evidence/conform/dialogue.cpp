@@ -6,6 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "checker/evidence/capture/relapses.hpp"
+
 namespace stormproof::conform {
 
 namespace {
@@ -301,13 +303,25 @@ Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, Sorti
   Dialogue dialogue{conversation};
   Sorter sorter{dialogue, sorting};
   for (const Event& event : conversation.events) sorter.look_at(event);
+  std::int64_t forgets_ns = INT64_MAX;
+  for (const capture::Relapse& one : capture::relapses(conversation)) {
+    forgets_ns = std::min(forgets_ns, one.before_ns);
+  }
   for (std::size_t k = 0; k < conversation.events.size(); ++k) {
     const Event& event = conversation.events[k];
     if (event.time_ns > until_ns) break;
+    if (event.time_ns > forgets_ns) {
+      dialogue.ends_early =
+          "what follows the last that somebody said before it forgot another participant is not "
+          "looked at: discovery has no rule for leases";
+      break;
+    }
     const Traffic traffic = event.traffic();
     if ((traffic == Traffic::spdp || traffic == Traffic::sedp) && event.data() != nullptr &&
         event.data()->is_gone) {
-      dialogue.ends_early = true;
+      dialogue.ends_early =
+          "what follows the first participant or endpoint that leaves is not looked at: discovery "
+          "has no rule for leaving";
       break;
     }
     dialogue.end_ns = event.time_ns;
@@ -315,7 +329,7 @@ Dialogue sort_out(const Conversation& conversation, std::int64_t until_ns, Sorti
   }
   for (const capture::DatagramRecord& one : conversation.datagrams) {
     const bool is_after =
-        dialogue.ends_early ? one.time_ns > dialogue.end_ns : one.time_ns > until_ns;
+        dialogue.ends_early != nullptr ? one.time_ns > dialogue.end_ns : one.time_ns > until_ns;
     if (is_after || one.user.data == 0) continue;
     dialogue.end_ns = std::max(dialogue.end_ns, one.time_ns);
     dialogue.not_checked += one.user.data;

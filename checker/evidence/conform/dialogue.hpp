@@ -88,7 +88,8 @@ struct Dialogue {
   std::uint64_t checked = 0;
   std::uint64_t not_checked = 0;
   std::int64_t end_ns = 0;  ///< of what is looked at
-  bool ends_early = false;  ///< a participant or an endpoint leaves, of which there is no rule
+  /// Why what follows `end_ns` is not looked at, as a sentence without a full stop; null: all is.
+  const char* ends_early = nullptr;
   std::optional<std::size_t> server{};  ///< with `has_server`, if the capture shows it
 
   /// When `from` can have been announced to `to` first: the time of that announcement's capture.

@@ -246,7 +246,8 @@ class WriterSide {
           {{"a push of every smaller number before it", {}, {}}});
     }
     const auto announced = context_.announced.lower_bound(next + 1);
-    if (context_.dialogue.ends_early || announced == context_.announced.end()) return std::nullopt;
+    if (context_.dialogue.ends_early != nullptr || announced == context_.announced.end())
+      return std::nullopt;
     const std::int64_t due = announced->second + context_.bounds.most_send_lag_ns;
     if (due >= context_.dialogue.end_ns) return std::nullopt;
     const auto after = std::ranges::find_if(

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/evidence/capture/relapses.hpp"
 #include "checker/evidence/doctor/reasons/old_identity.hpp"
 #include "checker/evidence/doctor/reasons/reasons.hpp"
 #include "checker/presentation/text/numbers.hpp"
@@ -62,6 +63,7 @@ class Listener {
     for (std::size_t k = 0; k < contacts.counting().classes.size(); ++k) {
       add(contacts.conversation().events[k]);
     }
+    for (const capture::Relapse& one : capture::relapses(contacts.conversation())) forgets(one);
   }
 
   [[nodiscard]] const std::map<std::pair<std::size_t, std::size_t>, Between>& pairs() const {
@@ -69,11 +71,6 @@ class Listener {
   }
 
  private:
-  struct Answered {
-    std::int64_t base = 0;
-    std::int64_t time_ns = 0;
-  };
-
   void add(const Event& event) {
     if (event.traffic() != capture::Traffic::sedp || !event.destination) return;
     const auto from = contacts_.number_of(event.source);
@@ -84,9 +81,8 @@ class Listener {
     if (here == there) return;
     Between& pair = pairs_[std::minmax(here, there)];
     const std::size_t side = here < there ? 0 : 1;
-    if (const auto* acknack = event.acknack()) {
+    if (event.acknack() != nullptr) {
       answer(pair, event.time_ns);
-      heard(pair, side, event, *acknack, {*from, *to});
     } else if (const auto* heartbeat = event.heartbeat(); heartbeat && !heartbeat->is_final) {
       ++pair.now.asked[side];
       ++pair.now.by_relation[{*from, *to, event.writer}];
@@ -101,27 +97,22 @@ class Listener {
     pair.was_answered = true;
   }
 
-  /// A reader whose state is new claims nothing of what it had acknowledged.
-  void heard(Between& pair, std::size_t side, const Event& event,
-             const capture::AcknackEvent& acknack, std::pair<std::size_t, std::size_t> who) {
-    Answered& last = answered_[{who.first, who.second, event.writer}];
-    const bool is_anew =
-        acknack.missing.base < last.base && event.time_ns - last.time_ns > second_ns;
-    if (is_anew && !restarted_.contains(who.first)) {
-      pair.anew.insert(who);
-      pair.last_before_ns = std::max(pair.last_before_ns, last.time_ns);
-      pair.again_ns = std::max(pair.again_ns, event.time_ns);
-      ++pair.forgot[side];
-    }
-    if (is_anew) last.base = 0;
-    last.base = std::max(last.base, acknack.missing.base);
-    last.time_ns = event.time_ns;
+  void forgets(const capture::Relapse& relapse) {
+    const auto reader = contacts_.number_of(relapse.reader);
+    const auto writer = contacts_.number_of(relapse.writer);
+    if (!reader || !writer || restarted_.contains(*reader)) return;
+    const std::size_t here = contacts_.topology().participants[*reader].host;
+    const std::size_t there = contacts_.topology().participants[*writer].host;
+    Between& pair = pairs_[std::minmax(here, there)];
+    pair.anew.emplace(*reader, *writer);
+    pair.last_before_ns = std::max(pair.last_before_ns, relapse.before_ns);
+    pair.again_ns = std::max(pair.again_ns, relapse.again_ns);
+    ++pair.forgot[here < there ? 0 : 1];
   }
 
   const Contacts& contacts_;
   std::set<std::size_t> restarted_;  ///< their readers are new ones, whatever the network does
   std::map<std::pair<std::size_t, std::size_t>, Between> pairs_;
-  std::map<std::tuple<std::size_t, std::size_t, EntityId>, Answered> answered_;
 };
 
 std::string forgotten_text(const Contacts& contacts, std::size_t one, std::size_t other,
