@@ -2,6 +2,7 @@
 // std::priority_queue, the event queue beside it and ns-3's schedulers from a thousand to a million
 // pending events, what monitors cost, what the largest collapse takes as a process of its own, and
 // how fast the explorer steps, beside SPIN (explorer_bench.cpp).
+// `--watched` prints what monitors cost alone, and what each of them does.
 // Processor time; both sides of a ratio are measured in turns, and the median of the ratios counts.
 // Nothing here is a test.
 #include <algorithm>
@@ -80,20 +81,16 @@ double median(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Which monitors watch a run.
-enum class Watch { nobody, limits, everything };
+using Properties = std::vector<std::string_view>;
 
-/// Events per second of processor time, with what is set up for the run.
-double events_per_second(const model::Scenario& scenario, Watch watch = Watch::nobody) {
+/// Events per second of processor time while these are watched, with what is set up for the run.
+double events_per_second(const model::Scenario& scenario, const Properties& watched = {}) {
   std::uint64_t events = 0;
   const double start = processor_seconds();
   do {
     std::vector<std::unique_ptr<props::Monitor>> monitors;
     model::trace::ProbeList probes;
-    std::vector<std::string_view> ids;
-    if (watch == Watch::limits) ids = props::limits_of(scenario);
-    if (watch == Watch::everything) ids = props::monitored_properties(scenario);
-    for (const std::string_view id : ids) {
+    for (const std::string_view id : watched) {
       monitors.push_back(props::make_monitor(id, scenario));
       probes.add(*monitors.back());
     }
@@ -206,26 +203,51 @@ void ns3() {
   }
 }
 
-void monitors() {
-  std::puts("\nWatched runs, time, beside the same runs without monitors (rates; ratio of times)");
-  for (const bool fastdds : {false, true}) {
-    model::Scenario scenario = fastdds ? bench::live(6, 30, 1) : bench::homogeneous(2, 6, 30);
+/// What a run costs that these watch, beside the same run without monitors.
+void watched(const std::string& name, const model::Scenario& scenario, const Properties& ids) {
+  std::vector<double> rates;
+  std::vector<double> alone;
+  std::vector<double> ratios;
+  for (std::size_t k = 0; k < rounds; ++k) {
+    rates.push_back(events_per_second(scenario, ids));
+    alone.push_back(events_per_second(scenario));
+    ratios.push_back(alone.back() / rates.back());
+  }
+  row(name, millions(median(rates)), millions(median(alone)), median(ratios));
+}
+
+std::vector<std::pair<std::string, model::Scenario>> watched_scenarios() {
+  model::Scenario cyclone = bench::live(5, 20, 1);
+  cyclone.dds.implementation = model::ImplementationKind::cyclone;
+  std::vector<std::pair<std::string, model::Scenario>> scenarios{
+      {"2x5x20, the paper's implementation", bench::homogeneous(2, 5, 20)},
+      {"2x5x20, Fast DDS", bench::live(5, 20, 1)},
+      {"2x5x20, Cyclone DDS", cyclone},
+      {"2x6x30, the paper's implementation", bench::homogeneous(2, 6, 30)},
+      {"2x6x30, Fast DDS", bench::live(6, 30, 1)}};
+  for (auto& [name, scenario] : scenarios) {
     scenario.limits.emplace();
     scenario.limits->completion = scenario.time_limit;
     scenario.limits->messages = 1'000'000'000;
     scenario.limits->backlog = 1'000'000'000;
-    for (const Watch watch : {Watch::limits, Watch::everything}) {
-      std::vector<double> watched;
-      std::vector<double> alone;
-      std::vector<double> ratios;
-      for (std::size_t k = 0; k < rounds; ++k) {
-        watched.push_back(events_per_second(scenario, watch));
-        alone.push_back(events_per_second(scenario));
-        ratios.push_back(alone.back() / watched.back());
-      }
-      row(fmt::format("2x6x30, {}, {}", fastdds ? "Fast DDS" : "the paper's implementation",
-                      watch == Watch::limits ? "limits" : "all properties"),
-          millions(median(watched)), millions(median(alone)), median(ratios));
+  }
+  return scenarios;
+}
+
+void monitors() {
+  std::puts("\nWatched runs, time, beside the same runs without monitors (rates; ratio of times)");
+  for (const auto& [name, scenario] : watched_scenarios()) {
+    watched(name + ", limits", scenario, props::limits_of(scenario));
+    watched(name + ", all properties", scenario, props::monitored_properties(scenario));
+  }
+}
+
+/// What each property costs that is watched alone.
+void each_monitor() {
+  for (const auto& [name, scenario] : watched_scenarios()) {
+    std::puts(fmt::format("\n{}, watched by one property", name).c_str());
+    for (const std::string_view id : props::monitored_properties(scenario)) {
+      watched(std::string{id}, scenario, {id});
     }
   }
 }
@@ -278,6 +300,11 @@ int run_collapse(const char* size) {
 
 int main(int argc, char** argv) {
   model::keep_memory();
+  if (argc == 2 && std::strcmp(argv[1], "--watched") == 0) {
+    monitors();
+    each_monitor();
+    return 0;
+  }
   if (argc == 3 && std::strcmp(argv[1], "--collapse") == 0) return run_collapse(argv[2]);
   std::puts(fmt::format("{:<58} {:>12} {:>12} {:>7}", "", "ours", "beside", "ratio").c_str());
   collapses("/proc/self/exe");
