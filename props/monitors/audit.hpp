@@ -62,6 +62,8 @@ class Audit final : public model::Probe {
     looks_ahead_ = false;
     return fits_ && sees_some_;
   }
+  /// Nothing more is to be told: what is looked at ahead is not what the run did.
+  [[nodiscard]] bool has_parted() const { return looks_ahead_ && !fits_; }
 
  private:
   /// Holds the moves that were told so far against those of the run.

@@ -36,7 +36,7 @@ class AuditedPackets : public AuditedState<Self, Base, Of> {
           return;
         }
       }
-      this->audit_.expect(message_of(packet, w, sayings));
+      if (!this->audit_.has_parted()) this->audit_.expect(message_of(packet, w, sayings));
     }
   }
 

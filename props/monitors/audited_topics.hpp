@@ -110,6 +110,7 @@ class AuditedTopics : public AuditedSteps<Self, Base, Of>,
   void open_sides(Number pair) {
     const Number back = this->topology().pair(pair).reverse;
     for (const bool of_lookups : {false, true}) {
+      if (of_lookups && !has_lookups(pair)) return;
       for_relations(pair, [&](Number n) {
         if (this->control_.is_lookup(n) != of_lookups) return;
         open(control::ControlReaderSide{}, control::ControlReaderOpens{}, n, pair);
@@ -132,6 +133,11 @@ class AuditedTopics : public AuditedSteps<Self, Base, Of>,
   void for_relations(Number pair, Visit&& visit) {
     const auto [first, end] = this->control_.of(pair);
     for (Number n = first; n < end; ++n) visit(n);
+  }
+  /// They are the last ones of a pair, and of both its directions.
+  [[nodiscard]] bool has_lookups(Number pair) const {
+    const auto [first, end] = this->control_.of(pair);
+    return first < end && this->control_.is_lookup(end - 1);
   }
   /// One of relation n, at the destination of the pair.
   template <class Side, class Opens>

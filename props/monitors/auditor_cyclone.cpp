@@ -87,15 +87,15 @@ class CycloneAuditorOf : public AuditedRules<Self, Follower, AuditedCyclone<Comp
 
   // What steps ask of it, besides.
   /// A multicast reaches those of the same host, too.
-  void send_copy(Number i, Number to) { this->expect_from(i, props::message_of(packet_of(i, to))); }
-  [[nodiscard]] model::Packet packet_of(Number i, Number to) const {
-    model::Packet packet;
-    packet.kind = model::PacketKind::rtps_message;
-    packet.to_group = to == model::cyclone::group;
-    packet.pair = packet.to_group ? i : this->topology().pair_between(i, to);
-    packet.payload_bytes = static_cast<Number>(this->threads_[i].bytes);
-    packet.submessages = this->threads_[i].contents;
-    return packet;
+  void send_copy(Number i, Number to) { this->expect_from(i, copy_to(i, to)); }
+  [[nodiscard]] props::Message copy_to(Number i, Number to) const {
+    props::Message copy;
+    copy.kind = model::PacketKind::rtps_message;
+    copy.to_group = to == model::cyclone::group;
+    copy.pair = copy.to_group ? i : this->topology().pair_between(i, to);
+    copy.bytes = static_cast<Number>(this->threads_[i].bytes);
+    copy.contents.of = this->threads_[i].contents;
+    return copy;
   }
   /// If that takes time; whether it does because the participant stalls shows in the run.
   [[nodiscard]] bool pauses(Number) {
@@ -156,10 +156,9 @@ class LivingAuditor final : public CycloneAuditorOf<LivingAuditor, cyclone::Cycl
     const model::HostId host = addresses().host_of(to);
     if (host == participants[i].host) return;
     const auto somebody = std::ranges::find(participants, host, &model::Participant::host);
-    props::Message message =
-        props::message_of(packet_of(i, static_cast<Number>(somebody - participants.begin())));
-    message.to_nobody = true;
-    expect_from(i, std::move(message));
+    props::Message copy = copy_to(i, static_cast<Number>(somebody - participants.begin()));
+    copy.to_nobody = true;
+    expect_from(i, std::move(copy));
   }
 };
 

@@ -41,7 +41,7 @@ class Joins : public EndObserver {
   }
 
  private:
-  void judge_event() override {
+  void judge_event(const model::Depths&) override {
     const std::uint64_t opened = std::exchange(opened_, 0);
     const std::uint64_t sent = std::exchange(sent_, 0);
     if (opened == 0) return;
@@ -123,7 +123,7 @@ class Feedback : public EndObserver {
   }
 
  private:
-  void judge_event() override {
+  void judge_event(const model::Depths&) override {
     const bool changes = std::exchange(changes_, false);
     const std::uint64_t heartbeats = counted_in_ == event() ? heartbeats_ : 0;
     if (!std::exchange(is_acknack_, false)) return;

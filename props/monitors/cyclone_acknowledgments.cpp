@@ -2,13 +2,13 @@
 // of samples: what a reader that has replied acknowledges, it has received. A new reader counts as
 // having what exists when it is matched, until it says otherwise in its first reply.
 #include <algorithm>
-#include <map>
-#include <set>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/submessage_observer.hpp"
 
@@ -16,10 +16,17 @@ namespace stormproof::props {
 
 namespace {
 
-class CycloneAcknowledgments : public SubmessageObserver {
+class CycloneAcknowledgments : public SubmessageObserver<> {
  public:
+  static constexpr auto selection_of_kinds = of_creations;
+
   CycloneAcknowledgments() : SubmessageObserver{"safety.ack-implies-received"} {}
 
+  void run_started(const model::Topology& topology) override {
+    SubmessageObserver::run_started(topology);
+    history_.assign(numbers().writer_count(), 0);
+    relations_.assign(numbers().relation_count(), {});
+  }
   /// What a participant creates is one sample more of one of its writers.
   void event_started(const model::Event& event) override {
     SubmessageObserver::event_started(event);
@@ -33,8 +40,8 @@ class CycloneAcknowledgments : public SubmessageObserver {
 
  private:
   struct Relation {
-    std::uint32_t acknowledged = 0;    ///< the first samples, as the writer has it
-    std::set<std::uint32_t> received;  ///< what the reader has taken
+    std::uint32_t acknowledged = 0;  ///< the first samples, as the writer has it
+    Descriptors received;            ///< samples that the reader has taken
   };
 
   void matched(std::uint32_t relation) override {
@@ -43,7 +50,7 @@ class CycloneAcknowledgments : public SubmessageObserver {
   void heard(std::uint32_t relation, const model::Submessage& taken,
              const States& states) override {
     Relation& of = relations_[relation];
-    if (taken.kind == model::Submessage::Kind::data) of.received.insert(taken.sample);
+    if (taken.kind == model::Submessage::Kind::data) of.received.add(taken.sample);
     if (taken.kind != model::Submessage::Kind::acknack) return;
     of.acknowledged = std::max(of.acknowledged, taken.sample);
     if (states.after == "Replied") judge(relation, of);
@@ -51,19 +58,18 @@ class CycloneAcknowledgments : public SubmessageObserver {
   void judge(std::uint32_t relation, const Relation& of) {
     if (!numbers().is_of_stream(relation)) return;
     ++judged_;
-    for (std::uint32_t sample = 0; sample < of.acknowledged; ++sample) {
-      if (of.received.contains(sample)) continue;
-      const model::Pair& ends = numbers().ends(relation);
-      return object_now(fmt::format(
-          "The writer of {} of participant {} takes sample {} as acknowledged by participant {} at "
-          "{}, but it has not been received there.",
-          model::cyclone::name_of_writer(relation % numbers().stride()), ends.source, sample + 1,
-          ends.destination, time_text(now())));
-    }
+    const std::uint32_t sample = of.received.first_gap();
+    if (sample >= of.acknowledged) return;
+    const model::Pair& ends = numbers().ends(relation);
+    object_now(fmt::format(
+        "The writer of {} of participant {} takes sample {} as acknowledged by participant {} at "
+        "{}, but it has not been received there.",
+        model::cyclone::name_of_writer(relation % numbers().stride()), ends.source, sample + 1,
+        ends.destination, time_text(now())));
   }
 
-  std::map<std::uint32_t, std::uint32_t> history_;  // by writer: how many samples exist
-  std::map<std::uint32_t, Relation> relations_;
+  std::vector<std::uint32_t> history_;  // by writer: how many samples exist
+  std::vector<Relation> relations_;
   std::uint64_t judged_ = 0;
 };
 

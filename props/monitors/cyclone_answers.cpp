@@ -4,9 +4,6 @@
 //   ask for may go to all.
 // storm.feedback-gain: a HEARTBEAT for one reader alone answers an ACKNACK of its own, which was
 //   pre-emptive or asked for something.
-#include <map>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -19,33 +16,51 @@ namespace stormproof::props {
 
 namespace {
 
-class RepeatedSamples : public SubmessageObserver {
+class RepeatedSamples : public SubmessageObserver<> {
  public:
+  static constexpr auto selection_of_kinds = of_creations;
+
   RepeatedSamples() : SubmessageObserver{"safety.repair-only-if-asked"} {}
 
+  void run_started(const model::Topology& topology) override {
+    SubmessageObserver::run_started(topology);
+    writers_.assign(numbers().writer_count(), {});
+  }
   void event_started(const model::Event& event) override {
     SubmessageObserver::event_started(event);
     if (event.kind != model::EventKind::endpoint_creation) return;
-    const std::uint32_t writer = numbers().writer_of_creation(event);
-    const std::uint32_t sample = history_[writer]++;
-    if (readers_[writer] > 0) ++left_[{writer, sample}];
+    Writer& writer = writers_[numbers().writer_of_creation(event)];
+    const std::uint32_t sample = writer.samples++;
+    if (writer.readers > 0) ++writer.left(sample);
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} samples were sent.", sent_)};
   }
 
  private:
-  void matched(std::uint32_t relation) override { ++readers_[numbers().writer_of(relation)]; }
+  struct Writer {
+    std::uint32_t samples = 0;  ///< that exist
+    std::uint32_t readers = 0;  ///< that are matched
+    /// How often it may still send the sample.
+    std::uint64_t& left(std::uint32_t sample) {
+      if (sample >= sendings.size()) sendings.resize(sample + 1);
+      return sendings[sample];
+    }
+    std::vector<std::uint64_t> sendings;  ///< the same, by sample
+  };
+
+  void matched(std::uint32_t relation) override {
+    ++writers_[numbers().writer_of(relation)].readers;
+  }
   void heard(std::uint32_t relation, const model::Submessage& acknack, const States&) override {
     if (acknack.kind != model::Submessage::Kind::acknack) return;
-    acknack.bitmap.for_each([&](std::uint32_t sample) {
-      ++left_[{numbers().writer_of(relation), sample}];
-    });
+    Writer& writer = writers_[numbers().writer_of(relation)];
+    acknack.bitmap.for_each([&](std::uint32_t sample) { ++writer.left(sample); });
   }
   void sent(const model::Packet&, const model::Submessage& data) override {
     if (data.kind != model::Submessage::Kind::data) return;
-    const std::uint32_t writer = numbers().stride() * data.participant + data.writer;
-    std::uint64_t& left = left_[{writer, data.sample}];
+    std::uint64_t& left =
+        writers_[numbers().stride() * data.participant + data.writer].left(data.sample);
     ++sent_;
     if (left > 0) {
       --left;
@@ -58,16 +73,18 @@ class RepeatedSamples : public SubmessageObserver {
         data.sample + 1));
   }
 
-  std::map<std::uint32_t, std::uint32_t> history_;  // by writer: how many samples exist
-  std::map<std::uint32_t, std::uint32_t> readers_;  // by writer: how many are matched
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> left_;  // by writer and sample
+  std::vector<Writer> writers_;
   std::uint64_t sent_ = 0;
 };
 
-class DirectedHeartbeats : public SubmessageObserver {
+class DirectedHeartbeats : public SubmessageObserver<> {
  public:
   DirectedHeartbeats() : SubmessageObserver{"storm.feedback-gain"} {}
 
+  void run_started(const model::Topology& topology) override {
+    SubmessageObserver::run_started(topology);
+    left_.assign(numbers().relation_count(), 0);
+  }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} HEARTBEATs answered an ACKNACK.", answered_)};
   }
@@ -93,7 +110,7 @@ class DirectedHeartbeats : public SubmessageObserver {
                     ends.destination));
   }
 
-  std::map<std::uint32_t, std::uint64_t> left_;  // by relation: ACKNACKs that may be answered
+  std::vector<std::uint64_t> left_;  // by relation: ACKNACKs that may be answered
   std::uint64_t answered_ = 0;
 };
 

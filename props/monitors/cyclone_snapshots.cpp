@@ -3,10 +3,8 @@
 // missing; a pre-emptive one claims nothing. It leaves later, when the thread gets to it, and
 // arrives as it was made, however much has come in the meantime.
 #include <algorithm>
-#include <deque>
-#include <map>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/core.h>
@@ -14,15 +12,21 @@
 #include "props/monitors/describe.hpp"
 #include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
+#include "props/monitors/relation_words.hpp"
 #include "props/monitors/submessage_observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class CycloneSnapshots : public SubmessageObserver {
+class CycloneSnapshots : public SubmessageObserver<> {
  public:
   CycloneSnapshots() : SubmessageObserver{"safety.snapshot"} {}
+
+  void run_started(const model::Topology& topology) override {
+    SubmessageObserver::run_started(topology);
+    relations_.assign(numbers().relation_count(), {});
+  }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} ACKNACKs reached their writer as they were made.", compared_)};
@@ -37,10 +41,15 @@ class CycloneSnapshots : public SubmessageObserver {
     bool operator==(const View&) const = default;
   };
   struct Relation {
-    std::set<std::uint32_t> received;
+    Descriptors received;     ///< samples
     std::uint32_t known = 0;  ///< how many samples are known to exist
-    std::deque<View> made;    ///< when the timer fired, since the last ACKNACK that has left
-    std::map<std::int64_t, View> sent;  ///< by count
+    std::vector<View> made;   ///< when the timer fired, since the last ACKNACK that has left
+    std::vector<std::pair<std::int64_t, View>> sent;  ///< by count, in its order
+
+    /// The place of the one with the count, or where it belongs.
+    auto place_of(std::int64_t count) {
+      return std::ranges::lower_bound(sent, count, {}, &std::pair<std::int64_t, View>::first);
+    }
   };
 
   static View said(const model::Submessage& acknack) {
@@ -50,9 +59,9 @@ class CycloneSnapshots : public SubmessageObserver {
   void timer_fired(std::uint32_t relation) override {
     Relation& reader = relations_[relation];
     View view;
-    while (reader.received.contains(view.base)) ++view.base;
-    for (std::uint32_t sample = view.base; sample < reader.known; ++sample) {
-      if (!reader.received.contains(sample)) view.lacking.add(sample);
+    view.base = reader.received.first_gap();
+    for (std::uint32_t k = view.base / 64; 64 * k < reader.known; ++k) {
+      view.lacking.add(k, RelationWords::below(reader.known, k) & ~reader.received.word(k));
     }
     reader.made.push_back(std::move(view));
   }
@@ -64,7 +73,7 @@ class CycloneSnapshots : public SubmessageObserver {
     if (taken.kind == Kind::heartbeat) reader.known = std::max(reader.known, taken.sample);
     if (taken.kind != Kind::data || states.before == "Unheard") return;
     reader.known = std::max(reader.known, taken.sample + 1);
-    reader.received.insert(taken.sample);
+    reader.received.add(taken.sample);
   }
   void sent(const model::Packet& packet, const model::Submessage& acknack) override {
     if (acknack.kind != Kind::acknack) return;
@@ -82,11 +91,16 @@ class CycloneSnapshots : public SubmessageObserver {
     } else {
       reader.made.erase(reader.made.begin(), view + 1);
     }
-    reader.sent[acknack.count] = std::move(leaving);
+    const auto place = reader.place_of(acknack.count);
+    if (place != reader.sent.end() && place->first == acknack.count) {
+      place->second = std::move(leaving);
+    } else {
+      reader.sent.emplace(place, acknack.count, std::move(leaving));
+    }
   }
   void compare(std::uint32_t relation, Relation& reader, const model::Submessage& acknack) {
-    const auto sent = reader.sent.find(acknack.count);
-    if (sent == reader.sent.end() || sent->second != said(acknack)) {
+    const auto sent = reader.place_of(acknack.count);
+    if (sent == reader.sent.end() || *sent != std::pair{acknack.count, said(acknack)}) {
       return object_to(relation, "arrives as another one than was sent");
     }
     ++compared_;
@@ -99,7 +113,7 @@ class CycloneSnapshots : public SubmessageObserver {
                            ends.source, reason));
   }
 
-  std::map<std::uint32_t, Relation> relations_;
+  std::vector<Relation> relations_;
   std::uint64_t compared_ = 0;
 };
 

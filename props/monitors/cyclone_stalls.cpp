@@ -9,21 +9,21 @@
 // takes, and threads have time for what their timers ask of them, whatever is missing has to come
 // once all lost and late packets are over and every timer has been due several times.
 #include <algorithm>
+#include <array>
 #include <iterator>
-#include <map>
 #include <optional>
-#include <set>
-#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
+#include "props/monitors/descriptors.hpp"
+#include "props/monitors/event_ends.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
 #include "props/monitors/packet_fates.hpp"
-#include "props/monitors/received_submessages.hpp"
+#include "props/monitors/submessage_observer.hpp"
 
 namespace stormproof::props {
 
@@ -50,67 +50,79 @@ bool threads_keep_up(const model::Scenario& scenario) {
          scenario.deployment.time_to_send() * ((most + others) * topology.participant_count());
 }
 
-class CycloneStalls : public Observer {
+class CycloneStalls : public SubmessageObserver<EndObserver> {
  public:
+  static constexpr auto selection_of_kinds =
+      model::trace::Selection{}
+          .only({model::Report::event_started},
+                {EventKind::endpoint_creation, EventKind::participant_start, EventKind::spdp_time,
+                 EventKind::thread_run, EventKind::heartbeat_time})
+          .only({model::Report::scheduled},
+                {EventKind::spdp_time, EventKind::thread_run, EventKind::heartbeat_time});
+
   explicit CycloneStalls(const model::Scenario& scenario)
-      : Observer{"live.no-stall"}, wireless_{scenario.wireless} {
+      : SubmessageObserver{"live.no-stall"}, wireless_{scenario.wireless} {
     if (wireless_.kind == model::ServiceKind::constant_delay && threads_keep_up(scenario)) {
       patience_ = patience_with_cyclone(scenario);
     }
   }
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
+    SubmessageObserver::run_started(topology);
     topology_.emplace(topology);
     received_.reset(*topology_);
+    participants_.assign(topology.participant_count(), {});
+    writers_.assign(received_.writer_count(), {});
+    relations_.assign(received_.relation_count(), {});
   }
   void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    const auto due = pending_.find({event.kind, event.subject});
-    if (due != pending_.end() && --due->second == 0) pending_.erase(due);
-    if (event.kind == EventKind::endpoint_creation) {
-      ++history_[received_.writer_of_creation(event)];
-      unrest(now());
-    }
-    const bool is_own = event.kind == EventKind::endpoint_creation ||
-                        event.kind == EventKind::participant_start ||
-                        event.kind == EventKind::spdp_time || event.kind == EventKind::thread_run;
-    if (is_own) touched_.insert(event.subject);
-    if (event.kind == EventKind::heartbeat_time) {
-      touched_.insert(event.subject / received_.stride());
+    SubmessageObserver::event_started(event);
+    switch (event.kind) {
+      case EventKind::endpoint_creation:
+        ++writers_[received_.writer_of_creation(event)].samples;
+        unrest(now());
+        return touch(event.subject);
+      case EventKind::participant_start:
+        return touch(event.subject);
+      case EventKind::spdp_time:
+        take(participants_[event.subject].announcements);
+        return touch(event.subject);
+      case EventKind::thread_run:
+        take(participants_[event.subject].runs);
+        return touch(event.subject);
+      case EventKind::heartbeat_time:
+        take(writers_[event.subject].heartbeats);
+        return touch(event.subject / received_.stride());
+      default:
+        return;
     }
   }
   void scheduled(std::uint64_t, model::Nanoseconds, EventKind kind,
                  std::uint32_t subject) override {
-    ++pending_[{kind, subject}];
+    if (kind == EventKind::spdp_time) ++participants_[subject].announcements.pending;
+    if (kind == EventKind::thread_run) ++participants_[subject].runs.pending;
+    if (kind == EventKind::heartbeat_time) ++writers_[subject].heartbeats.pending;
   }
   /// A lost packet would have arrived as late as one that is not lost.
-  void emitted(const model::Packet& packet, std::uint32_t,
-               std::span<const std::uint32_t>) override {
+  void emitted(const model::Packet& packet, std::uint32_t source,
+               std::span<const std::uint32_t> destinations) override {
+    SubmessageObserver::emitted(packet, source, destinations);
     if (!patience_) return;
     for (std::uint64_t n = packet.number; n < packet.number + packet.copies; ++n) {
       const model::Nanoseconds one_way = one_way_of(wireless_, n);
       if (is_lost(wireless_, n) || one_way > wireless_.one_way) unrest(now() + one_way);
     }
   }
-  void received(const model::Packet& packet, std::uint32_t) override { received_.arriving(packet); }
   void transition(const model::Transition& fired) override {
+    SubmessageObserver::transition(fired);
     const std::uint32_t n = fired.machine.subject;
-    const model::Submessage* heard = received_.heard(fired.machine, fired.event);
-    if (heard != nullptr && fired.event == "DataReceived") have_[n].insert(heard->sample);
-    if (fired.machine.machine == "EventThread") asleep_[n] = fired.after == "Asleep";
-    if (fired.machine.machine == "MovableTimer" && fired.machine.kind == Kind::participant)
-      spdp_[n] = fired.after;
-    if (fired.machine.machine == "MovableTimer" && fired.machine.kind == Kind::endpoint_writer) {
-      heartbeat_[n] = fired.after;
+    if (fired.machine.kind == Kind::endpoint_writer) {
+      if (fired.machine.machine == "MovableTimer") writers_[n].heartbeats.now_in(fired.after);
+    } else if (fired.machine.kind == Kind::participant) {
+      if (fired.machine.machine == "EventThread") participants_[n].runs.now_in(fired.after);
+      if (fired.machine.machine == "MovableTimer")
+        participants_[n].announcements.now_in(fired.after);
     }
-    if (fired.event != "Opened") return;
-    (fired.machine.machine == "MatchedReader" ? writer_sides_ : reader_sides_).insert(n);
-    unrest(now());
-    touched_.insert(received_.ends(n).source);
-  }
-  void event_finished(const model::Depths&) override {
-    for (const std::uint32_t i : std::exchange(touched_, {})) judge(i, now());
   }
   void finish(model::Nanoseconds end) override {
     if (!topology_) return;
@@ -123,6 +135,68 @@ class CycloneStalls : public Observer {
   }
 
  private:
+  /// What makes it go on: its events that are pending, and the state of its machine.
+  struct Timer {
+    std::uint64_t pending = 0;
+    bool is_scheduled = false;
+    bool is_listed = false;  ///< of a thread
+    bool is_awake = false;   ///< the thread itself
+
+    void now_in(std::string_view state) {
+      is_scheduled = state == "Scheduled";
+      is_listed = state == "Listed";
+      is_awake = state != "Asleep";
+    }
+  };
+  struct Participant {
+    Timer announcements;
+    Timer runs;  ///< of its thread
+    bool is_touched = false;
+  };
+  struct Writer {
+    std::uint32_t samples = 0;  ///< that exist
+    Timer heartbeats;
+  };
+  struct Relation {
+    Descriptors have;              ///< samples that the reader has taken
+    std::uint32_t have_count = 0;  ///< of them
+    bool writer_side = false;
+    bool reader_side = false;
+  };
+
+  static void take(Timer& timer) {
+    if (timer.pending > 0) --timer.pending;
+  }
+  void touch(std::uint32_t i) {
+    await_end();
+    if (!std::exchange(participants_[i].is_touched, true)) touched_.push_back(i);
+  }
+  void matched(std::uint32_t relation) override {
+    relations_[relation].writer_side = true;
+    side_opened(relation);
+  }
+  void opened(std::uint32_t relation) override {
+    relations_[relation].reader_side = true;
+    side_opened(relation);
+  }
+  void side_opened(std::uint32_t relation) {
+    unrest(now());
+    touch(received_.ends(relation).source);
+  }
+  void heard(std::uint32_t relation, const model::Submessage& taken, const States&) override {
+    Relation& reader = relations_[relation];
+    if (taken.kind != model::Submessage::Kind::data || reader.have.has(taken.sample)) return;
+    reader.have.add(taken.sample);
+    ++reader.have_count;
+  }
+  void judge_event(const model::Depths&) override {
+    std::ranges::sort(touched_);
+    for (const std::uint32_t i : touched_) {
+      judge(i, now());
+      participants_[i].is_touched = false;
+    }
+    touched_.clear();
+  }
   /// All that lack something of participant i, or that i does not know.
   void judge(std::uint32_t i, model::Nanoseconds time) {
     for (std::uint32_t pair = topology_->first_pair(i); pair < topology_->first_pair(i + 1);
@@ -138,21 +212,21 @@ class CycloneStalls : public Observer {
     const model::Pair& ends = topology_->pair(pair);
     for (std::uint32_t s = 0; s < std::size(model::streams); ++s) {
       const std::uint32_t relation = received_.stride() * pair + s;
-      const std::uint32_t writer = received_.writer_of(relation);
-      if (have_[relation].size() >= history_[writer]) continue;
+      const Writer& writer = writers_[received_.writer_of(relation)];
+      const Relation& reader = relations_[relation];
+      if (reader.have_count >= writer.samples) continue;
       ++judged_;
-      if (!writer_sides_.contains(relation)) {
-        if (!goes_on(spdp_[ends.destination], EventKind::spdp_time, ends.destination,
-                     ends.destination)) {
+      if (!reader.writer_side) {
+        if (!goes_on(participants_[ends.destination].announcements, ends.destination)) {
           object_to(relation, time,
                     "its writer does not know the reader, which announces itself no more");
         }
-      } else if (!reader_sides_.contains(relation)) {
-        if (!goes_on(spdp_[ends.source], EventKind::spdp_time, ends.source, ends.source)) {
+      } else if (!reader.reader_side) {
+        if (!goes_on(participants_[ends.source].announcements, ends.source)) {
           object_to(relation, time,
                     "its reader does not know the writer, which announces itself no more");
         }
-      } else if (!goes_on(heartbeat_[writer], EventKind::heartbeat_time, writer, ends.source)) {
+      } else if (!goes_on(writer.heartbeats, ends.source)) {
         object_to(relation, time, "the HEARTBEAT timer of its writer is not under way");
       } else if (is_long_quiet_) {
         object_to(
@@ -164,12 +238,10 @@ class CycloneStalls : public Observer {
     }
   }
   /// A timer of participant i.
-  [[nodiscard]] bool goes_on(const std::string& state, EventKind kind, std::uint32_t owner,
-                             std::uint32_t i) const {
-    if (state == "Scheduled") return pending_.contains({kind, owner});
-    const auto sleeps = asleep_.find(i);
-    const bool runs = sleeps != asleep_.end() && !sleeps->second;
-    return state == "Listed" && runs && pending_.contains({EventKind::thread_run, i});
+  [[nodiscard]] bool goes_on(const Timer& timer, std::uint32_t i) const {
+    if (timer.is_scheduled) return timer.pending > 0;
+    const Timer& thread = participants_[i].runs;
+    return timer.is_listed && thread.is_awake && thread.pending > 0;
   }
   void object_to(std::uint32_t relation, model::Nanoseconds time, std::string_view why) {
     const model::Pair& ends = received_.ends(relation);
@@ -188,16 +260,11 @@ class CycloneStalls : public Observer {
   model::Nanoseconds last_unrest_;  ///< until then packets are lost or late, or something is new
   bool is_long_quiet_ = false;
   std::optional<model::Topology> topology_;
-  ReceivedSubmessages received_;
-  std::map<std::pair<EventKind, std::uint32_t>, std::uint64_t> pending_;  // events, by subject
-  std::map<std::uint32_t, std::uint32_t> history_;         // by writer: how many samples exist
-  std::map<std::uint32_t, std::set<std::uint32_t>> have_;  // by relation
-  std::set<std::uint32_t> writer_sides_;                   // relations
-  std::set<std::uint32_t> reader_sides_;
-  std::map<std::uint32_t, std::string> spdp_;       // by participant: the state of the timer
-  std::map<std::uint32_t, std::string> heartbeat_;  // by writer: the same
-  std::map<std::uint32_t, bool> asleep_;            // by participant
-  std::set<std::uint32_t> touched_;                 // participants
+  ReceivedSubmessages received_;  // the numbers, after the run, too
+  std::vector<Participant> participants_;
+  std::vector<Writer> writers_;
+  std::vector<Relation> relations_;
+  std::vector<std::uint32_t> touched_;  // participants
   std::uint64_t judged_ = 0;
 };
 

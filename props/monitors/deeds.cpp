@@ -1,6 +1,7 @@
 // Deeds in words.
 #include "props/monitors/deeds.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -8,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "model/cyclone/endpoints.hpp"
-#include "model/engine/submessage.hpp"
 #include "model/fastdds/endpoints.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/trace/event_subject.hpp"
@@ -56,23 +56,49 @@ std::string descriptors_text(const Descriptors& descriptors) {
                      fmt::join(descriptors.list(), ", "));
 }
 
+const char* name_of(model::Submessage::Kind kind) {
+  switch (kind) {
+    case model::Submessage::Kind::spdp:
+      return "announcement";
+    case model::Submessage::Kind::data:
+      return "DATA";
+    case model::Submessage::Kind::heartbeat:
+      return "HEARTBEAT";
+    case model::Submessage::Kind::acknack:
+      return "ACKNACK";
+    case model::Submessage::Kind::gap:
+      return "GAP";
+  }
+  return "";
+}
+
+/// Samples that it carries, lists or says are gone.
+Descriptors samples_in(const model::Submessage& content) {
+  using Kind = model::Submessage::Kind;
+  Descriptors samples{content.bitmap};
+  if (content.kind == Kind::data) samples.add(content.sample);
+  for (std::uint32_t d = 0; d < content.first; ++d) samples.add(d);
+  return samples;
+}
+
 /// "HEARTBEAT 3 of publications, directed, that announces 9"; an ACKNACK is about the receiver's.
-std::string content_text(const Message& content) {
-  using enum model::PacketKind;
-  if (content.kind == spdp_unicast) {
+std::string content_text(const model::Submessage& content) {
+  using Kind = model::Submessage::Kind;
+  if (content.kind == Kind::spdp) {
     return content.directed ? "a directed announcement" : "an announcement";
   }
-  std::string text = content.kind == data        ? "DATA"
-                     : content.kind == heartbeat ? fmt::format("HEARTBEAT {}", content.count)
-                                                 : fmt::format("ACKNACK {}", content.count);
+  std::string text = name_of(content.kind);
+  const bool is_counted = content.kind == Kind::heartbeat || content.kind == Kind::acknack;
+  if (is_counted) text += fmt::format(" {}", content.count);
   text += " of " + model::cyclone::name_of_writer(content.writer);
   if (content.initial) text += ", pre-emptive,";
   if (content.directed) text += ", directed,";
-  if (content.kind == heartbeat) text += fmt::format(" that announces {}", content.detail);
-  if (content.kind == acknack) text += fmt::format(" that confirms {}", content.detail);
-  if (content.descriptors.empty()) return text;
-  return text + (content.kind == acknack ? " and asks for " : " with ") +
-         descriptors_text(content.descriptors);
+  if (content.kind == Kind::heartbeat) text += fmt::format(" that announces {}", content.sample);
+  if (content.kind == Kind::acknack) text += fmt::format(" that confirms {}", content.sample);
+  const Descriptors samples = samples_in(content);
+  if (samples.empty()) return text;
+  return text + (content.kind == Kind::acknack ? " and asks for " : " with ") +
+         descriptors_text(samples);
 }
 
 std::string contents_text(const Message& message, const model::Topology& topology) {
@@ -83,7 +109,7 @@ std::string contents_text(const Message& message, const model::Topology& topolog
                            : fmt::format("participant {}", topology.pair(message.pair).destination);
   if (message.loops_to != UINT32_MAX) text += fmt::format(" at participant {}", message.loops_to);
   const char* separator = " with ";
-  for (const Message& content : message.contents) {
+  for (const model::Submessage& content : *message.contents.of) {
     text += std::exchange(separator, "; ") + content_text(content);
   }
   return text + " is sent";
@@ -129,7 +155,7 @@ std::string server_message_text(const Message& message, const model::Topology& t
 }  // namespace
 
 std::string said(const Message& message, const model::Topology& topology) {
-  if (!message.contents.empty()) return contents_text(message, topology);
+  if (message.contents.of != nullptr) return contents_text(message, topology);
   using enum model::PacketKind;
   std::string text = name_of(message.kind);
   switch (message.kind) {
@@ -179,39 +205,11 @@ bool carries_heartbeat(const model::Packet& packet) {
          (packet.kind == model::PacketKind::lookup && packet.heartbeats > 0);
 }
 
-Message content_of(const model::Submessage& submessage) {
-  using Kind = model::Submessage::Kind;
-  Message content;
-  content.pair = submessage.participant;
-  content.writer = submessage.writer;
-  content.count = submessage.count;
-  content.directed = submessage.directed;
-  content.initial = submessage.initial;
-  switch (submessage.kind) {
-    case Kind::spdp:
-      content.kind = model::PacketKind::spdp_unicast;
-      content.initial = submessage.goodbye;
-      break;
-    case Kind::data:
-      content.kind = model::PacketKind::data;
-      content.descriptors.add(submessage.sample);
-      break;
-    case Kind::heartbeat:
-      content.kind = model::PacketKind::heartbeat;
-      content.detail = submessage.sample;
-      for (std::uint32_t d = 0; d < submessage.first; ++d) content.descriptors.add(d);
-      break;
-    case Kind::gap:
-      content.kind = model::PacketKind::heartbeat;
-      content.descriptors = Descriptors{submessage.bitmap};
-      break;
-    case Kind::acknack:
-      content.kind = model::PacketKind::acknack;
-      content.detail = submessage.sample;
-      content.descriptors = Descriptors{submessage.bitmap};
-      break;
-  }
-  return content;
+bool is_same(const model::Submessage& one, const model::Submessage& other) {
+  return one.kind == other.kind && one.directed == other.directed && one.initial == other.initial &&
+         one.participant == other.participant && one.writer == other.writer &&
+         one.sample == other.sample && one.first == other.first && one.goodbye == other.goodbye &&
+         one.count == other.count && Descriptors{one.bitmap}.are(other.bitmap);
 }
 
 }  // namespace
@@ -222,8 +220,7 @@ bool Message::says_what(const Message& other) const {
   return kind == other.kind && stream == other.stream && detail == other.detail &&
          initial == other.initial && repair == other.repair &&
          carries_heartbeat == other.carries_heartbeat && to_nobody == other.to_nobody &&
-         to_group == other.to_group && directed == other.directed && loops_to == other.loops_to &&
-         bytes == other.bytes && writer == other.writer && count == other.count &&
+         to_group == other.to_group && loops_to == other.loops_to && bytes == other.bytes &&
          samples == other.samples && last_sample == other.last_sample &&
          descriptors == other.descriptors && contents == other.contents && relayed == other.relayed;
 }
@@ -236,6 +233,11 @@ bool Message::says_what(const model::Packet& packet) const {
           (samples == packet.samples() && last_sample == packet.last_sample())) &&
          !packet.multicast() && packet.submessages == nullptr && packet.relayed == nullptr &&
          descriptors.are(packet.descriptors);
+}
+
+bool SentContents::operator==(const SentContents& other) const {
+  if (of == nullptr || other.of == nullptr || of == other.of) return of == other.of;
+  return std::ranges::equal(*of, *other.of, is_same);
 }
 
 bool RelayedContents::operator==(const RelayedContents& other) const {
@@ -262,9 +264,7 @@ Message message_of(const model::Packet& packet) {
   message.to_group = packet.to_group;
   if (packet.submessages != nullptr) {
     message.bytes = packet.payload_bytes;
-    for (const model::Submessage& each : *packet.submessages) {
-      message.contents.push_back(content_of(each));
-    }
+    message.contents.of = packet.submessages;
   }
   message.relayed.of = packet.relayed;
   return message;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "model/engine/packet.hpp"
+#include "model/engine/submessage.hpp"
 #include "model/engine/topology.hpp"
 #include "model/probe.hpp"
 #include "props/monitors/descriptors.hpp"
@@ -37,8 +38,14 @@ struct RelayedContents {
   bool operator==(const RelayedContents& other) const;
 };
 
-/// What a packet says, without its size. One of Cyclone DDS has contents, which are about a writer
-/// of a participant each, and its size.
+/// What a packet of Cyclone DDS carries; the same.
+struct SentContents {
+  std::shared_ptr<const std::vector<model::Submessage>> of;
+
+  bool operator==(const SentContents& other) const;
+};
+
+/// What a packet says, without its size. One of Cyclone DDS has contents and its size.
 struct Message {
   model::PacketKind kind{};
   model::Stream stream{};
@@ -47,19 +54,15 @@ struct Message {
   bool carries_heartbeat = false;
   bool to_nobody = false;
   bool to_group = false;   ///< a multicast with contents
-  bool directed = false;   ///< of a content: meant for its receiver alone
-  std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0;
-                           ///< of a content: whose writer it is about
+  std::uint32_t pair = 0;  ///< of a multicast: the sending participant; control-only relations: 0
   std::uint32_t loops_to = UINT32_MAX;  ///< a multicast that goes to a participant of its host
-  std::uint32_t detail = 0;             ///< as in `Packet`, of contents, too
-  std::uint32_t bytes = 0;
+  std::uint32_t detail = 0;             ///< as in `Packet`
+  std::uint32_t bytes = 0;              ///< if it has contents
   // Of a control-only relation, as in `Packet`.
   std::uint32_t samples = 0;
   std::uint32_t last_sample = 0;
-  Descriptors descriptors;   ///< carried or listed
-  std::uint32_t writer = 0;  ///< of a content: which one (model/cyclone/endpoints.hpp)
-  std::int64_t count = 0;    ///< of a content that is a HEARTBEAT or ACKNACK
-  std::vector<Message> contents;
+  Descriptors descriptors;  ///< carried or listed
+  SentContents contents;
   RelayedContents relayed;
 
   bool operator==(const Message&) const = default;

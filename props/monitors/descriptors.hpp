@@ -63,6 +63,12 @@ class Descriptors {
     while (word(k) == 0) ++k;
     return 64 * k + static_cast<std::uint32_t>(std::countr_zero(word(k)));
   }
+  /// The least one that is no member.
+  [[nodiscard]] std::uint32_t first_gap() const {
+    std::uint32_t k = 0;
+    while (word(k) == ~std::uint64_t{0}) ++k;
+    return 64 * k + static_cast<std::uint32_t>(std::countr_one(word(k)));
+  }
   [[nodiscard]] std::vector<std::uint32_t> list() const {
     std::vector<std::uint32_t> members;
     for (std::uint32_t k = 0; k <= others_.size(); ++k) {

@@ -14,7 +14,7 @@ class EventEnds final : public model::Probe {
   class Listener {
    public:
     virtual ~Listener() = default;
-    virtual void event_ended() = 0;
+    virtual void event_ended(const model::Depths& depths) = 0;
   };
 
   [[nodiscard]] bool gathers_as(const EventEnds&) const { return true; }
@@ -23,8 +23,8 @@ class EventEnds final : public model::Probe {
     reports.set(model::Report::event_finished);
     return reports;
   }
-  void event_finished(const model::Depths&) override {
-    for (Listener* one : asked_) one->event_ended();
+  void event_finished(const model::Depths& depths) override {
+    for (Listener* one : asked_) one->event_ended(depths);
     asked_.clear();
   }
   /// The listener hears of the end of this event; to be called once in it.
@@ -53,12 +53,12 @@ class EndObserver : public Observer, private EventEnds::Listener {
     if (!std::exchange(awaits_, true)) ends_->ask(*this);
   }
   /// The event is over in which `await_end` was called.
-  virtual void judge_event() = 0;
+  virtual void judge_event(const model::Depths& depths) = 0;
 
  private:
-  void event_ended() final {
+  void event_ended(const model::Depths& depths) final {
     awaits_ = false;
-    judge_event();
+    judge_event(depths);
   }
 
   std::shared_ptr<EventEnds> ends_ = std::make_shared<EventEnds>();

@@ -13,9 +13,9 @@
 #include "model/life.hpp"
 #include "props/monitors/auditors.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/event_ends.hpp"
 #include "props/monitors/follower.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
@@ -27,17 +27,17 @@ constexpr bool is_of_rules(model::EventKind kind) {
          kind != model::EventKind::source_completion && kind != model::EventKind::thread_free;
 }
 
-class FollowedRun : public Observer {
+class FollowedRun : public EndObserver {
  public:
-  static constexpr bool reads_clock = false;
-  static constexpr auto selection_of_kinds =
-      model::trace::Selection{}.only_if(model::Report::scheduled, is_of_rules);
+  static constexpr auto selection_of_kinds = model::trace::Selection{}
+                                                 .only_if(model::Report::event_started, is_of_rules)
+                                                 .only_if(model::Report::scheduled, is_of_rules);
 
   FollowedRun(const model::Scenario& scenario, AuditorMaker make)
-      : Observer{"composition.followed"}, scenario_{as_run(scenario)}, make_{make} {}
+      : EndObserver{"composition.followed"}, scenario_{as_run(scenario)}, make_{make} {}
 
   void run_started(const model::Topology& topology) override {
-    Observer::run_started(topology);
+    EndObserver::run_started(topology);
     follower_.reset();
     audit_ = std::make_unique<Audit>(topology);
     run_ = std::make_unique<model::RunState>(scenario_, audit_.get(), nullptr,
@@ -45,35 +45,26 @@ class FollowedRun : public Observer {
     follower_ = make_(*run_, *audit_);
     trigger_ = Trigger::start;
   }
+  /// The first event is one of the rules.
   void event_started(const model::Event& event) override {
-    follow_rule();
-    Observer::event_started(event);
-    if (follower_ == nullptr) return;
-    ++followed_;
-    run_->now = event.time;
-    if (!is_of_rules(event.kind)) return;
-    trigger_ = Trigger::due;
+    if (trigger_ == Trigger::start) follow_rule();
+    EndObserver::event_started(event);
+    if (follower_ == nullptr || !is_of_rules(event.kind)) return;
+    await(Trigger::due);
     due_ = event;
   }
   void received(const model::Packet& packet, std::uint32_t receiver) override {
     follow_rule();
     if (follower_ == nullptr) return;
-    trigger_ = Trigger::received;
+    await(Trigger::received);
     take(packet);
     receiver_ = receiver;
   }
   void source_completed(const model::Packet& packet) override {
     follow_rule();
     if (follower_ == nullptr || !follower_->follows_leaving(packet.kind)) return;
-    trigger_ = Trigger::left_source;
+    await(Trigger::left_source);
     take(packet);
-  }
-  void event_finished(const model::Depths& depths) override {
-    follow_rule();
-    if (follower_ == nullptr || depths.missing == run_->missing) return;
-    object_now(fmt::format("At {} {} required descriptors are missing, by the rules {}.",
-                           time_text(now()), depths.missing, run_->missing));
-    follower_.reset();
   }
 
   void transition(const model::Transition& fired) override {
@@ -90,7 +81,7 @@ class FollowedRun : public Observer {
   void emitted(const model::Packet& packet, std::uint32_t source,
                std::span<const std::uint32_t> destinations) override {
     if (follower_ == nullptr) return;
-    audit_->deeds().add(packet, packet.pair);
+    deeds().add(packet, packet.pair);
     if (packet.copies == 1) return;
     for (const std::uint32_t destination : destinations.subspan(1)) {
       audit_->deeds().add_copy(topology().pair_between(source, destination));
@@ -98,7 +89,7 @@ class FollowedRun : public Observer {
   }
   void looped_back(const model::Packet& packet, std::uint32_t receiver) override {
     if (follower_ == nullptr) return;
-    audit_->deeds().add(packet, packet.pair, packet.multicast() ? receiver : UINT32_MAX);
+    deeds().add(packet, packet.pair, packet.multicast() ? receiver : UINT32_MAX);
   }
 
   [[nodiscard]] std::vector<std::string> assumptions() const override {
@@ -111,13 +102,39 @@ class FollowedRun : public Observer {
     return taken;
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
-    return {fmt::format("{} events were followed.", followed_)};
+    return {fmt::format("{} events were followed.", follower_ != nullptr ? events() : followed_)};
   }
 
  private:
   /// What starts the next rule.
   enum class Trigger : std::uint8_t { nothing, start, due, received, left_source };
 
+  void judge_event(const model::Depths& depths) override {
+    follow_rule();
+    if (follower_ == nullptr || depths.missing == run_->missing) return;
+    object_to(fmt::format(" {} required descriptors are missing, by the rules {}.", depths.missing,
+                          run_->missing));
+  }
+  void object_to(const std::string& what) {
+    object(event_, run_->now, fmt::format("At {}{}", time_text(run_->now), what));
+    followed_ = events();
+    follower_.reset();
+  }
+  /// What is done from now on is held against that rule, in this event.
+  void await(Trigger trigger) {
+    trigger_ = trigger;
+    await_this_event();
+  }
+  void await_this_event() {
+    event_ = event();
+    run_->now = now();
+    await_end();
+  }
+  /// Something is done; before the first event the start is followed when that begins.
+  Deeds& deeds() {
+    if (trigger_ != Trigger::start) await_this_event();
+    return audit_->deeds();
+  }
   /// The packet may be gone before its rule is followed.
   void take(const model::Packet& packet) {
     packet_.become(packet);
@@ -127,7 +144,7 @@ class FollowedRun : public Observer {
   }
   template <class Kind>
   void add(Kind&& deed) {
-    if (follower_ != nullptr) audit_->deeds().add(std::forward<Kind>(deed));
+    if (follower_ != nullptr) deeds().add(std::forward<Kind>(deed));
   }
   void run_rule(Trigger trigger) {
     switch (trigger) {
@@ -151,9 +168,7 @@ class FollowedRun : public Observer {
   [[gnu::noinline]] void compare_with_rule() {
     run_rule(std::exchange(trigger_, Trigger::nothing));
     audit_->nothing_more();
-    if (!audit_->difference()) return;
-    object_now("At " + time_text(now()) + ", " + *audit_->difference());
-    follower_.reset();
+    if (audit_->difference()) object_to(", " + *audit_->difference());
   }
 
   const model::Scenario scenario_;
@@ -165,7 +180,8 @@ class FollowedRun : public Observer {
   model::Event due_;            // if it is
   model::Packet packet_;        // that is received or has left its source
   std::uint32_t receiver_ = 0;  // of it
-  std::uint64_t followed_ = 0;
+  std::uint64_t event_ = 0;     // in which that is
+  std::uint64_t followed_ = 0;  // events, up to an objection
 };
 
 }  // namespace

@@ -39,6 +39,10 @@ class ReceivedSubmessages {
 
   // The numbers of relations and writers.
   [[nodiscard]] std::uint32_t stride() const { return stride_; }
+  [[nodiscard]] std::uint32_t writer_count() const {
+    return stride_ * topology_->participant_count();
+  }
+  [[nodiscard]] std::uint32_t relation_count() const { return stride_ * topology_->pair_count(); }
   /// Of a participant: 0 publications, 1 subscriptions, …
   [[nodiscard]] std::uint32_t writer_of(std::uint32_t relation) const {
     return stride_ * ends(relation).source + relation % stride_;

@@ -75,7 +75,7 @@ class Stalls : public DataObserver<EndObserver> {
   void await_consequences() {
     if (prospects_.expects_end()) await_end();
   }
-  void judge_event() override {
+  void judge_event(const model::Depths&) override {
     if (prospects_.is_touched()) judge(now());
     prospects_.event_ended();
   }
