@@ -14,20 +14,18 @@
 #include "model/airtime.hpp"
 #include "model/engine/chunk_queue.hpp"
 #include "props/monitors/describe.hpp"
+#include "props/monitors/instants.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/number_map.hpp"
-#include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class Conservation : public Observer {
+class Conservation : public InstantObserver {
  public:
-  static constexpr bool reads_clock = true;
-
   explicit Conservation(const model::Scenario& scenario)
-      : Observer{"safety.conservation"},
+      : InstantObserver{"safety.conservation"},
         participants_{scenario.deployment.participants},
         fragmentation_{scenario.wireless},
         capacity_{scenario.wireless.source_queue_bytes.count()},
@@ -39,13 +37,8 @@ class Conservation : public Observer {
     Observer::run_started(topology);
     sources_.resize(topology.participant_count());
   }
-  void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    const model::Nanoseconds before = std::exchange(instant_, event.time);
-    if (event.time > before) check_instant(before, event.time);
-  }
   void finish(model::Nanoseconds end) override {
-    if (end > instant_) check_instant(instant_, end);
+    if (end > instants().now()) over(instants().now(), end);
   }
 
   void emitted(const model::Packet& packet, std::uint32_t source,
@@ -95,6 +88,7 @@ class Conservation : public Observer {
     }
     use.busy_since = now();
     use.busy_until = until;
+    look_when_needed();
     Admitted* const found = admitted_.find(packet.number);
     if (found == nullptr) {
       object_now(
@@ -112,12 +106,14 @@ class Conservation : public Observer {
     }
   }
   void waiting_changed(std::uint32_t channel, std::uint64_t fragments) override {
-    channel_at(channel).waiting = fragments;
+    ChannelUse& use = channel_at(channel);
+    if (fragments > 0 && use.waiting == 0) look_beyond(use.busy_until);
+    use.waiting = fragments;
   }
   void source_completed(const model::Packet& packet) override {
     if (!shared_) return;
     Admitted* const found = admitted_.find(packet.number);
-    if (found == nullptr || found->left) {
+    if (found == nullptr || found->has_left()) {
       object_now(fmt::format("At {} packet {} leaves its source without being in the queue.",
                              time_text(now()), packet.number));
       return;
@@ -128,17 +124,18 @@ class Conservation : public Observer {
                              time_text(now()), packet.number, flight.served_at_source,
                              flight.fragments));
     }
-    flight.left = true;
-    sources_[flight.source].admitted_bytes -= flight.demand;
-    --sources_[flight.source].admitted_packets;
+    Source& source = sources_[std::exchange(flight.source, nobody)];
+    source.admitted_bytes -= fragmentation_.demand(packet.payload_bytes, flight.fragments);
+    --source.admitted_packets;
   }
   void arrived(const model::Packet& packet, bool lost) override {
     if (!shared_) return;
     if (!lost && !packet.to_nobody && is_received_now(packet)) {
       to_be_received_.push_back(packet.number);
+      look_beyond(now());
     }
     const Admitted* const found = admitted_.find(packet.number);
-    if (found == nullptr || !found->left || found->served != found->fragments * stages_) {
+    if (found == nullptr || !found->has_left() || found->served != found->fragments * stages_) {
       object_now(fmt::format("At {} packet {} arrives without having had all its services.",
                              time_text(now()), packet.number));
     }
@@ -146,7 +143,9 @@ class Conservation : public Observer {
   }
 
   void received(const model::Packet& packet, std::uint32_t) override {
-    if (!to_be_received_.empty()) std::erase(to_be_received_, packet.number);
+    if (to_be_received_.empty()) return;
+    std::erase(to_be_received_, packet.number);
+    if (to_be_received_.empty()) look_when_needed();
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -168,13 +167,15 @@ class Conservation : public Observer {
     std::int64_t admitted_bytes = 0;
     std::uint64_t admitted_packets = 0;
   };
+  static constexpr std::uint32_t nobody = UINT32_MAX;
+  /// As many wait as the queues hold: it is small.
   struct Admitted {
-    std::int64_t demand = 0;
-    std::uint32_t source = 0;
+    std::uint32_t source = nobody;  // in whose queue it is
     std::uint32_t fragments = 0;
     std::uint32_t served = 0;  // over all stages
     std::uint32_t served_at_source = 0;
-    bool left = false;  // its source
+
+    [[nodiscard]] bool has_left() const { return source == nobody; }
   };
   struct ChannelUse {
     model::Nanoseconds busy_since;
@@ -203,11 +204,9 @@ class Conservation : public Observer {
     Emitted& head = source.backlog.front();
     if (Admitted* const flight = admitted_.add(head.number)) {
       flight->source = participant;
-      flight->demand = head.demand;
       flight->fragments = head.fragments;
       flight->served = 0;
       flight->served_at_source = 0;
-      flight->left = false;
     } else {
       object_now(
           fmt::format("At {} packet {} is admitted a second time.", time_text(now()), head.number));
@@ -224,8 +223,21 @@ class Conservation : public Observer {
     return channels_[channel];
   }
 
+  /// The end of the first instant after that is looked at.
+  void look_beyond(model::Nanoseconds time) {
+    horizon_ = std::min(horizon_, time);
+    wait_beyond(horizon_);
+  }
+  /// The end of this one if somebody has to receive; of others if a channel does not serve then.
+  void look_when_needed() {
+    horizon_ = to_be_received_.empty() ? Instants::never : now();
+    for (const ChannelUse& channel : channels_) {
+      if (channel.waiting > 0) horizon_ = std::min(horizon_, channel.busy_until);
+    }
+    wait_beyond(horizon_);
+  }
   /// Nothing happens between `from`, whose events are all processed, and `to`.
-  void check_instant(model::Nanoseconds from, model::Nanoseconds to) {
+  void over(model::Nanoseconds from, model::Nanoseconds to) override {
     if (!to_be_received_.empty()) {
       object_now(fmt::format("Packet {} had its last service at {}, but nobody receives it then.",
                              to_be_received_.front(), time_text(from)));
@@ -237,6 +249,7 @@ class Conservation : public Observer {
                              time_text(std::max(from, channel.busy_until)), time_text(to), c,
                              channel.waiting));
     }
+    look_when_needed();
   }
 
   const std::vector<model::Participant> participants_;
@@ -250,7 +263,7 @@ class Conservation : public Observer {
   NumberMap<Admitted> admitted_;               // by packet number
   std::vector<std::uint64_t> to_be_received_;  // arrived in this instant
   std::int64_t peak_ = 0;
-  model::Nanoseconds instant_;
+  model::Nanoseconds horizon_ = Instants::never;
 };
 
 }  // namespace

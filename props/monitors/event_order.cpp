@@ -8,52 +8,35 @@
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
+#include "props/monitors/instants.hpp"
 #include "props/monitors/monitors.hpp"
-#include "props/monitors/observer.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
-class EventOrder : public Observer {
+class EventOrder : public InstantObserver {
  public:
-  static constexpr bool reads_clock = true;
-
-  EventOrder() : Observer{"order.reception-first"} {}
-
-  void event_started(const model::Event& event) override {
-    Observer::event_started(event);
-    if (event.time < last_.time) {
-      object_now(fmt::format("{} of {} comes after {} of {}: time runs backwards.",
-                             name_of(event.kind), time_text(event.time), name_of(last_.kind),
-                             time_text(last_.time)));
-    } else if (events() > 1 && event.time == last_.time) {
-      compare(event);
-    }
-    last_ = {event.time, event.insertion(), event.kind};
-  }
+  EventOrder() : InstantObserver{"order.reception-first"} {}
 
  private:
-  void compare(const model::Event& event) {
-    const model::EventClass before = class_of(last_.kind);
-    const model::EventClass after = class_of(event.kind);
-    if (after < before) {
+  void out_of_order(const Instants::Place& before, const model::Event& event) override {
+    const model::EventClass should_see = class_of(before.kind);
+    const model::EventClass should_be_seen = class_of(event.kind);
+    if (event.time < before.time) {
+      object_now(fmt::format("{} of {} comes after {} of {}: time runs backwards.",
+                             name_of(event.kind), time_text(event.time), name_of(before.kind),
+                             time_text(before.time)));
+    } else if (should_be_seen < should_see) {
       object_now(fmt::format("At {} {} ({}) is processed after {} ({}), which should have seen it.",
-                             time_text(event.time), name_of(event.kind), name_of(after),
-                             name_of(last_.kind), name_of(before)));
-    } else if (after == before && event.insertion() < last_.insertion) {
+                             time_text(event.time), name_of(event.kind), name_of(should_be_seen),
+                             name_of(before.kind), name_of(should_see)));
+    } else {
       object_now(fmt::format("At {} {} (inserted as number {}) comes after {} (number {}).",
                              time_text(event.time), name_of(event.kind), event.insertion(),
-                             name_of(last_.kind), last_.insertion));
+                             name_of(before.kind), before.insertion));
     }
   }
-
-  struct Last {
-    model::Nanoseconds time;
-    std::uint64_t insertion = 0;
-    model::EventKind kind{};
-  };
-  Last last_;
 };
 
 }  // namespace

@@ -109,7 +109,9 @@ class Attentive final : public M, public model::trace::Selective {
     using enum model::Report;
     using model::Probe;
     model::Reports reports;
-    reports.set(event_started, counts_events || this->has_own_clock());
+    reports.set(event_started, this->has_own_clock() ||
+                                   (counts_events && (this->is_alone() ||
+                                                      !only_feeds<decltype(&M::event_started)>)));
     const auto hears = [&]([[maybe_unused]] model::Report report, [[maybe_unused]] auto own,
                            [[maybe_unused]] auto inherited) {
       const bool is_own = !std::is_same_v<decltype(own), decltype(inherited)>;
