@@ -8,7 +8,6 @@
 
 #include "model/implementations.hpp"
 #include "props/monitors/describe.hpp"
-#include "props/monitors/descriptors.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/submessage_observer.hpp"
 
@@ -18,20 +17,11 @@ namespace {
 
 class CycloneAcknowledgments : public SubmessageObserver<> {
  public:
-  static constexpr auto selection_of_kinds = of_creations;
-
   CycloneAcknowledgments() : SubmessageObserver{"safety.ack-implies-received"} {}
 
   void run_started(const model::Topology& topology) override {
     SubmessageObserver::run_started(topology);
-    history_.assign(numbers().writer_count(), 0);
-    relations_.assign(numbers().relation_count(), {});
-  }
-  /// What a participant creates is one sample more of one of its writers.
-  void event_started(const model::Event& event) override {
-    SubmessageObserver::event_started(event);
-    if (event.kind != model::EventKind::endpoint_creation) return;
-    ++history_[numbers().writer_of_creation(event)];
+    acknowledged_.assign(numbers().relation_count(), 0);
   }
 
   [[nodiscard]] std::vector<std::string> remarks() const override {
@@ -39,27 +29,20 @@ class CycloneAcknowledgments : public SubmessageObserver<> {
   }
 
  private:
-  struct Relation {
-    std::uint32_t acknowledged = 0;  ///< the first samples, as the writer has it
-    Descriptors received;            ///< samples that the reader has taken
-  };
-
   void matched(std::uint32_t relation) override {
-    relations_[relation].acknowledged = history_[numbers().writer_of(relation)];
+    acknowledged_[relation] = gathered().samples_of(numbers().writer_of(relation));
   }
   void heard(std::uint32_t relation, const model::Submessage& taken,
              const States& states) override {
-    Relation& of = relations_[relation];
-    if (taken.kind == model::Submessage::Kind::data) of.received.add(taken.sample);
     if (taken.kind != model::Submessage::Kind::acknack) return;
-    of.acknowledged = std::max(of.acknowledged, taken.sample);
-    if (states.after == "Replied") judge(relation, of);
+    acknowledged_[relation] = std::max(acknowledged_[relation], taken.sample);
+    if (states.after == "Replied") judge(relation);
   }
-  void judge(std::uint32_t relation, const Relation& of) {
+  void judge(std::uint32_t relation) {
     if (!numbers().is_of_stream(relation)) return;
     ++judged_;
-    const std::uint32_t sample = of.received.first_gap();
-    if (sample >= of.acknowledged) return;
+    const std::uint32_t sample = gathered().taken(relation).first_gap();
+    if (sample >= acknowledged_[relation]) return;
     const model::Pair& ends = numbers().ends(relation);
     object_now(fmt::format(
         "The writer of {} of participant {} takes sample {} as acknowledged by participant {} at "
@@ -68,8 +51,7 @@ class CycloneAcknowledgments : public SubmessageObserver<> {
         ends.destination, time_text(now())));
   }
 
-  std::vector<std::uint32_t> history_;  // by writer: how many samples exist
-  std::vector<Relation> relations_;
+  std::vector<std::uint32_t> acknowledged_;  // by relation: the first samples, as the writer has it
   std::uint64_t judged_ = 0;
 };
 

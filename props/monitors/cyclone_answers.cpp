@@ -18,20 +18,11 @@ namespace {
 
 class RepeatedSamples : public SubmessageObserver<> {
  public:
-  static constexpr auto selection_of_kinds = of_creations;
-
   RepeatedSamples() : SubmessageObserver{"safety.repair-only-if-asked"} {}
 
   void run_started(const model::Topology& topology) override {
     SubmessageObserver::run_started(topology);
     writers_.assign(numbers().writer_count(), {});
-  }
-  void event_started(const model::Event& event) override {
-    SubmessageObserver::event_started(event);
-    if (event.kind != model::EventKind::endpoint_creation) return;
-    Writer& writer = writers_[numbers().writer_of_creation(event)];
-    const std::uint32_t sample = writer.samples++;
-    if (writer.readers > 0) ++writer.left(sample);
   }
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {fmt::format("{} samples were sent.", sent_)};
@@ -39,7 +30,6 @@ class RepeatedSamples : public SubmessageObserver<> {
 
  private:
   struct Writer {
-    std::uint32_t samples = 0;  ///< that exist
     std::uint32_t readers = 0;  ///< that are matched
     /// How often it may still send the sample.
     std::uint64_t& left(std::uint32_t sample) {
@@ -49,6 +39,9 @@ class RepeatedSamples : public SubmessageObserver<> {
     std::vector<std::uint64_t> sendings;  ///< the same, by sample
   };
 
+  void created(std::uint32_t writer, std::uint32_t sample) override {
+    if (writers_[writer].readers > 0) ++writers_[writer].left(sample);
+  }
   void matched(std::uint32_t relation) override {
     ++writers_[numbers().writer_of(relation)].readers;
   }

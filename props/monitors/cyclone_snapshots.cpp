@@ -3,6 +3,7 @@
 // missing; a pre-emptive one claims nothing. It leaves later, when the thread gets to it, and
 // arrives as it was made, however much has come in the meantime.
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,12 +45,7 @@ class CycloneSnapshots : public SubmessageObserver<> {
     Descriptors received;     ///< samples
     std::uint32_t known = 0;  ///< how many samples are known to exist
     std::vector<View> made;   ///< when the timer fired, since the last ACKNACK that has left
-    std::vector<std::pair<std::int64_t, View>> sent;  ///< by count, in its order
-
-    /// The place of the one with the count, or where it belongs.
-    auto place_of(std::int64_t count) {
-      return std::ranges::lower_bound(sent, count, {}, &std::pair<std::int64_t, View>::first);
-    }
+    std::vector<std::pair<std::int64_t, View>> sent;  ///< with their counts, the last one last
   };
 
   static View said(const model::Submessage& acknack) {
@@ -91,16 +87,13 @@ class CycloneSnapshots : public SubmessageObserver<> {
     } else {
       reader.made.erase(reader.made.begin(), view + 1);
     }
-    const auto place = reader.place_of(acknack.count);
-    if (place != reader.sent.end() && place->first == acknack.count) {
-      place->second = std::move(leaving);
-    } else {
-      reader.sent.emplace(place, acknack.count, std::move(leaving));
-    }
+    reader.sent.emplace_back(acknack.count, std::move(leaving));
   }
   void compare(std::uint32_t relation, Relation& reader, const model::Submessage& acknack) {
-    const auto sent = reader.place_of(acknack.count);
-    if (sent == reader.sent.end() || *sent != std::pair{acknack.count, said(acknack)}) {
+    const auto latest = std::views::reverse(reader.sent);
+    const auto sent =
+        std::ranges::find(latest, acknack.count, [](const auto& one) { return one.first; });
+    if (sent == latest.end() || sent->second != said(acknack)) {
       return object_to(relation, "arrives as another one than was sent");
     }
     ++compared_;

@@ -9,7 +9,6 @@
 // takes, and threads have time for what their timers ask of them, whatever is missing has to come
 // once all lost and late packets are over and every timer has been due several times.
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -19,18 +18,17 @@
 #include <fmt/core.h>
 
 #include "props/monitors/describe.hpp"
-#include "props/monitors/descriptors.hpp"
 #include "props/monitors/event_ends.hpp"
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/packet_fates.hpp"
 #include "props/monitors/submessage_observer.hpp"
+#include "props/monitors/thread_timers.hpp"
 
 namespace stormproof::props {
 
 namespace {
 
 using model::EventKind;
-using Kind = model::MachineRef::Kind;
 
 /// Whether a thread has sent all that one timer can make it send, to everybody, before the next one
 /// is due.
@@ -54,9 +52,8 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
  public:
   static constexpr auto selection_of_kinds =
       model::trace::Selection{}
-          .only({model::Report::event_started},
-                {EventKind::endpoint_creation, EventKind::participant_start, EventKind::spdp_time,
-                 EventKind::thread_run, EventKind::heartbeat_time})
+          .only({model::Report::event_started}, {EventKind::participant_start, EventKind::spdp_time,
+                                                 EventKind::thread_run, EventKind::heartbeat_time})
           .only({model::Report::scheduled},
                 {EventKind::spdp_time, EventKind::thread_run, EventKind::heartbeat_time});
 
@@ -71,37 +68,21 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
     SubmessageObserver::run_started(topology);
     topology_.emplace(topology);
     received_.reset(*topology_);
-    participants_.assign(topology.participant_count(), {});
-    writers_.assign(received_.writer_count(), {});
-    relations_.assign(received_.relation_count(), {});
+    timers_.reset(topology.participant_count(), received_.writer_count());
+    has_writer_side_.assign(received_.relation_count(), false);
+    has_reader_side_.assign(received_.relation_count(), false);
   }
   void event_started(const model::Event& event) override {
     SubmessageObserver::event_started(event);
-    switch (event.kind) {
-      case EventKind::endpoint_creation:
-        ++writers_[received_.writer_of_creation(event)].samples;
-        unrest(now());
-        return touch(event.subject);
-      case EventKind::participant_start:
-        return touch(event.subject);
-      case EventKind::spdp_time:
-        take(participants_[event.subject].announcements);
-        return touch(event.subject);
-      case EventKind::thread_run:
-        take(participants_[event.subject].runs);
-        return touch(event.subject);
-      case EventKind::heartbeat_time:
-        take(writers_[event.subject].heartbeats);
-        return touch(event.subject / received_.stride());
-      default:
-        return;
-    }
+    timers_.started(event);
+    const bool is_own = event.kind == EventKind::participant_start ||
+                        event.kind == EventKind::spdp_time || event.kind == EventKind::thread_run;
+    if (is_own) touch(event.subject);
+    if (event.kind == EventKind::heartbeat_time) touch(event.subject / received_.stride());
   }
   void scheduled(std::uint64_t, model::Nanoseconds, EventKind kind,
                  std::uint32_t subject) override {
-    if (kind == EventKind::spdp_time) ++participants_[subject].announcements.pending;
-    if (kind == EventKind::thread_run) ++participants_[subject].runs.pending;
-    if (kind == EventKind::heartbeat_time) ++writers_[subject].heartbeats.pending;
+    timers_.scheduled(kind, subject);
   }
   /// A lost packet would have arrived as late as one that is not lost.
   void emitted(const model::Packet& packet, std::uint32_t source,
@@ -115,14 +96,7 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
   }
   void transition(const model::Transition& fired) override {
     SubmessageObserver::transition(fired);
-    const std::uint32_t n = fired.machine.subject;
-    if (fired.machine.kind == Kind::endpoint_writer) {
-      if (fired.machine.machine == "MovableTimer") writers_[n].heartbeats.now_in(fired.after);
-    } else if (fired.machine.kind == Kind::participant) {
-      if (fired.machine.machine == "EventThread") participants_[n].runs.now_in(fired.after);
-      if (fired.machine.machine == "MovableTimer")
-        participants_[n].announcements.now_in(fired.after);
-    }
+    timers_.transition(fired);
   }
   void finish(model::Nanoseconds end) override {
     if (!topology_) return;
@@ -135,66 +109,29 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
   }
 
  private:
-  /// What makes it go on: its events that are pending, and the state of its machine.
-  struct Timer {
-    std::uint64_t pending = 0;
-    bool is_scheduled = false;
-    bool is_listed = false;  ///< of a thread
-    bool is_awake = false;   ///< the thread itself
-
-    void now_in(std::string_view state) {
-      is_scheduled = state == "Scheduled";
-      is_listed = state == "Listed";
-      is_awake = state != "Asleep";
-    }
-  };
-  struct Participant {
-    Timer announcements;
-    Timer runs;  ///< of its thread
-    bool is_touched = false;
-  };
-  struct Writer {
-    std::uint32_t samples = 0;  ///< that exist
-    Timer heartbeats;
-  };
-  struct Relation {
-    Descriptors have;              ///< samples that the reader has taken
-    std::uint32_t have_count = 0;  ///< of them
-    bool writer_side = false;
-    bool reader_side = false;
-  };
-
-  static void take(Timer& timer) {
-    if (timer.pending > 0) --timer.pending;
-  }
   void touch(std::uint32_t i) {
     await_end();
-    if (!std::exchange(participants_[i].is_touched, true)) touched_.push_back(i);
+    if (std::ranges::find(touched_, i) == touched_.end()) touched_.push_back(i);
+  }
+  void created(std::uint32_t writer, std::uint32_t) override {
+    unrest(now());
+    touch(writer / received_.stride());
   }
   void matched(std::uint32_t relation) override {
-    relations_[relation].writer_side = true;
-    side_opened(relation);
+    has_writer_side_[relation] = true;
+    note_side(relation);
   }
   void opened(std::uint32_t relation) override {
-    relations_[relation].reader_side = true;
-    side_opened(relation);
+    has_reader_side_[relation] = true;
+    note_side(relation);
   }
-  void side_opened(std::uint32_t relation) {
+  void note_side(std::uint32_t relation) {
     unrest(now());
     touch(received_.ends(relation).source);
   }
-  void heard(std::uint32_t relation, const model::Submessage& taken, const States&) override {
-    Relation& reader = relations_[relation];
-    if (taken.kind != model::Submessage::Kind::data || reader.have.has(taken.sample)) return;
-    reader.have.add(taken.sample);
-    ++reader.have_count;
-  }
   void judge_event(const model::Depths&) override {
     std::ranges::sort(touched_);
-    for (const std::uint32_t i : touched_) {
-      judge(i, now());
-      participants_[i].is_touched = false;
-    }
+    for (const std::uint32_t i : touched_) judge(i, now());
     touched_.clear();
   }
   /// All that lack something of participant i, or that i does not know.
@@ -212,21 +149,20 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
     const model::Pair& ends = topology_->pair(pair);
     for (std::uint32_t s = 0; s < std::size(model::streams); ++s) {
       const std::uint32_t relation = received_.stride() * pair + s;
-      const Writer& writer = writers_[received_.writer_of(relation)];
-      const Relation& reader = relations_[relation];
-      if (reader.have_count >= writer.samples) continue;
+      const std::uint32_t writer = received_.writer_of(relation);
+      if (gathered().taken(relation).first_gap() >= gathered().samples_of(writer)) continue;
       ++judged_;
-      if (!reader.writer_side) {
-        if (!goes_on(participants_[ends.destination].announcements, ends.destination)) {
+      if (!has_writer_side_[relation]) {
+        if (!timers_.announces(ends.destination)) {
           object_to(relation, time,
                     "its writer does not know the reader, which announces itself no more");
         }
-      } else if (!reader.reader_side) {
-        if (!goes_on(participants_[ends.source].announcements, ends.source)) {
+      } else if (!has_reader_side_[relation]) {
+        if (!timers_.announces(ends.source)) {
           object_to(relation, time,
                     "its reader does not know the writer, which announces itself no more");
         }
-      } else if (!goes_on(writer.heartbeats, ends.source)) {
+      } else if (!timers_.heartbeats(writer, ends.source)) {
         object_to(relation, time, "the HEARTBEAT timer of its writer is not under way");
       } else if (is_long_quiet_) {
         object_to(
@@ -236,12 +172,6 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
                         time_text(last_unrest_)));
       }
     }
-  }
-  /// A timer of participant i.
-  [[nodiscard]] bool goes_on(const Timer& timer, std::uint32_t i) const {
-    if (timer.is_scheduled) return timer.pending > 0;
-    const Timer& thread = participants_[i].runs;
-    return timer.is_listed && thread.is_awake && thread.pending > 0;
   }
   void object_to(std::uint32_t relation, model::Nanoseconds time, std::string_view why) {
     const model::Pair& ends = received_.ends(relation);
@@ -261,9 +191,9 @@ class CycloneStalls : public SubmessageObserver<EndObserver> {
   bool is_long_quiet_ = false;
   std::optional<model::Topology> topology_;
   ReceivedSubmessages received_;  // the numbers, after the run, too
-  std::vector<Participant> participants_;
-  std::vector<Writer> writers_;
-  std::vector<Relation> relations_;
+  ThreadTimers timers_;
+  std::vector<bool> has_writer_side_;  // by relation
+  std::vector<bool> has_reader_side_;
   std::vector<std::uint32_t> touched_;  // participants
   std::uint64_t judged_ = 0;
 };
