@@ -2,6 +2,7 @@
 // and what comes then is not called a violation.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "checker/evidence/capture/relapses.hpp"
@@ -12,11 +13,23 @@
 namespace stormproof::conform {
 namespace relapse_test {
 
+/// Between participants of different hosts, all of them both ways.
+std::string outages(const std::string& until) {
+  std::string all;
+  for (const auto& [one, other] : {std::pair{0, 2}, {0, 3}, {1, 2}, {1, 3}}) {
+    for (const auto& [from, to] : {std::pair{one, other}, {other, one}}) {
+      all += fmt::format("{}{{from: {}, to: {}, start: 6s, end: {}}}", all.empty() ? "" : ", ",
+                         from, to, until);
+    }
+  }
+  return all;
+}
+
 model::Scenario scenario_with(const std::string& dds, const std::string& until) {
   auto scenario = model::config::parse_scenario(
       "{deployment: {hosts: 2, participants_per_host: 2, endpoints_per_participant: 4, life: "
-      "{outages: [{from: all, to: all, start: 6s, end: " +
-          until + "}]}}, dds: " + dds +
+      "{outages: [" +
+          outages(until) + "]}}, dds: " + dds +
           ", wireless: wifi-80211n-paper, time_limit: 60s, run_until: time_limit}",
       "scenario", {}, model::config::SpecPath::standard());
   EXPECT_TRUE(scenario) << to_string(scenario.error());
@@ -38,7 +51,7 @@ bool ends_early(const Conformance& result) {
   });
 }
 
-class Relapses : public testing::TestWithParam<const char*> {};
+class Relapses : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Relapses, EndWhatIsHeldAgainstTheProfile) {
   const model::Scenario scenario = scenario_with(GetParam(), "46s");
@@ -63,7 +76,7 @@ TEST_P(Relapses, AreNoneWhereLeasesHold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Relapses,
-                         testing::Values("fastdds-2.6.11", "fastdds-2.14.5", "cyclonedds-0.10"),
+                         ::testing::Values("fastdds-2.6.11", "fastdds-2.14.5", "cyclonedds-0.10"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase_if(name, [](char c) { return !std::isalnum(c); });
