@@ -29,6 +29,8 @@ class Fragmentation {
     const std::int64_t rest = payload_bytes + udp_header_bytes - mtu_payload_ * k;
     return (rest < mtu_payload_ ? rest : mtu_payload_) + header_;
   }
+  /// Bytes on the channel of a full fragment.
+  [[nodiscard]] std::int64_t longest() const { return mtu_payload_ + header_; }
   /// Bytes that the packet occupies in the source queue: the sum over its fragments.
   [[nodiscard]] std::int64_t demand(std::int64_t payload_bytes, std::int64_t fragments) const {
     return payload_bytes + udp_header_bytes + header_ * fragments;

@@ -72,6 +72,7 @@ enum class Report : std::uint8_t {
   rescheduled,
   emitted,
   service_started,
+  dropped,
   source_completed,
   arrived,
   received,
@@ -165,6 +166,9 @@ class Probe {
                        std::span<const std::uint32_t> /*destinations*/) {}
   virtual void service_started(std::uint32_t /*channel*/, std::uint32_t /*stage*/, const Packet&,
                                std::uint32_t /*fragment*/, Nanoseconds /*until*/) {}
+  /// A queue dropped the fragment, which waited for the channel in this stage.
+  virtual void dropped(std::uint32_t /*channel*/, std::uint32_t /*stage*/, const Packet&,
+                       std::uint32_t /*fragment*/) {}
   /// The last source-side fragment of the packet has been served.
   virtual void source_completed(const Packet&) {}
   /// The last fragment left the last stage; `lost` packets are not received.

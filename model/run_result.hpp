@@ -53,6 +53,14 @@ struct ChannelUse {
   }
 };
 
+/// How many frames queues dropped (`wireless.queue`), by class.
+struct DroppedFrames {
+  std::array<std::uint64_t, traffic_class_count> at_stations{};       ///< on the way up
+  std::array<std::uint64_t, traffic_class_count> at_access_points{};  ///< on the way down
+
+  bool operator==(const DroppedFrames&) const = default;
+};
+
 /// The longest backlog of one participant: packets generated but not yet admitted to its source
 /// queue.
 struct BacklogPeak {
@@ -116,13 +124,14 @@ struct RunResult {
   std::uint64_t user_control = 0;  ///< messages of control-only relations, in no class
   std::uint64_t events = 0;        ///< processed events
   std::uint64_t missing_count = 0;
-  std::vector<MissingDescriptor> missing;  ///< the first `missing_listed` of them
-  std::uint64_t useful_deliveries = 0;     ///< descriptors received for the first time
-  std::uint64_t duplicate_deliveries = 0;  ///< descriptors received again
-  std::uint64_t repairs_received = 0;      ///< packets of repair DATA
-  std::uint64_t useful_repairs = 0;        ///< of these, those that brought a missing descriptor
-  std::vector<ChannelUse> channels;        ///< empty with constant delay
-  std::vector<BacklogPeak> backlog;        ///< by participant
+  std::vector<MissingDescriptor> missing;     ///< the first `missing_listed` of them
+  std::uint64_t useful_deliveries = 0;        ///< descriptors received for the first time
+  std::uint64_t duplicate_deliveries = 0;     ///< descriptors received again
+  std::uint64_t repairs_received = 0;         ///< packets of repair DATA
+  std::uint64_t useful_repairs = 0;           ///< of these, those that brought a missing descriptor
+  std::vector<ChannelUse> channels;           ///< empty with constant delay
+  std::optional<DroppedFrames> dropped = {};  ///< if queues drop frames
+  std::vector<BacklogPeak> backlog;           ///< by participant
   std::vector<Waiting> waiting;  ///< by participant, if it can: `sender: stalls`, processors
   std::array<Latency, traffic_class_count> latency{};
   std::optional<LastDelivery> last_delivery;

@@ -129,6 +129,7 @@ class Simulator {
   /// What nobody observes, holds or pays for.
   void handle(const Event& event) {
     concerns_network(event.kind) ? network_.handle(event) : implementation_->handle(event);
+    network_.settle_drops();
   }
 
   void process(const Event& event) {

@@ -33,6 +33,13 @@ enum class Arbitration : std::uint8_t { round_robin, oldest };
 enum class ApQueue : std::uint8_t { oldest, round_robin };
 /// Whether the frames of a queue wait in one line, or in one for each flow (Linux mac80211).
 enum class Queueing : std::uint8_t { fifo, flows };
+/// Which frames a queue drops: none, those that find no room (tc's pfifo and bfifo), those that
+/// waited for too long (RFC 8289), or the same in each flow, and the longest flow's at the limit
+/// (RFC 8290).
+enum class QueueDiscipline : std::uint8_t { unlimited, tail_drop, codel, fq_codel };
+/// Whose queues drop frames: everybody's, those of the access points (on the way down), or those of
+/// the stations (on the way up).
+enum class QueuesOf : std::uint8_t { everybody, access_points, stations };
 /// What a participant does while packets wait for room in its source queue: it goes on, or its
 /// thread waits with them, as a blocking socket makes it.
 enum class Sender : std::uint8_t { backlog, stalls };
@@ -68,6 +75,19 @@ struct FrameLoss {
   std::optional<LossBursts> bursts = {};
 
   bool operator==(const FrameLoss&) const = default;
+};
+
+/// How queues of frames that wait for the channel drop some. The limits are of a transmitter, over
+/// all its queues; the defaults those of RFC 8289.
+struct QueueManagement {
+  QueueDiscipline discipline = QueueDiscipline::unlimited;
+  QueuesOf of = QueuesOf::everybody;
+  std::optional<std::uint32_t> max_frames = {};
+  std::optional<Bytes> max_bytes = {};
+  Nanoseconds target{5'000'000};      ///< a frame may wait for so long
+  Nanoseconds interval{100'000'000};  ///< and longer for as long as this
+
+  bool operator==(const QueueManagement&) const = default;
 };
 
 /// One stage of the route. An override that is absent means: the value of the profile.
@@ -121,6 +141,7 @@ struct WirelessProfile {
   ApQueue ap_queue = ApQueue::oldest;
   Queueing queueing = Queueing::fifo;
   Bytes quantum{300};  ///< bytes that a flow may send before the next one does (Linux fq_impl.h)
+  std::optional<QueueManagement> queue = {};
   // Of both.
   std::optional<FrameLoss> loss = {};  ///< of the two stages above
   Sender sender = Sender::backlog;
@@ -128,5 +149,10 @@ struct WirelessProfile {
 
   bool operator==(const WirelessProfile&) const = default;
 };
+
+/// Whether queues drop frames.
+[[nodiscard]] inline bool queues_drop(const WirelessProfile& wireless) {
+  return wireless.queue && wireless.queue->discipline != QueueDiscipline::unlimited;
+}
 
 }  // namespace stormproof::model

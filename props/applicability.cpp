@@ -131,6 +131,10 @@ std::string_view why_not_true(Premise premise, const model::Scenario& scenario) 
     return "it is stated for losses of whole packets, by number; here transmissions of frames "
            "fail (wireless.loss)";
   }
+  if (model::queues_drop(scenario.wireless) && is_of_the_way) {
+    return "it is stated for queues that keep what waits; here they drop frames, the more the more "
+           "is sent (wireless.queue)";
+  }
   if (!stalls(scenario) || !is_timed) return {};
   return "it counts on timers that are served when they are due; a participant that stalls "
          "(sender: stalls) serves none as long as its packets wait for room, however long that is";
@@ -228,6 +232,9 @@ std::string_view why_not_provable(const Property& property, const model::Scenari
   if (scenario.hosts) return "the engines that prove it know no threads that are busy (hosts)";
   if (scenario.wireless.loss) {
     return "the engines that prove it know no transmissions that fail (wireless.loss)";
+  }
+  if (model::queues_drop(scenario.wireless)) {
+    return "the engines that prove it know no queues that drop frames (wireless.queue)";
   }
   return {};
 }

@@ -33,6 +33,7 @@ Network::Network(RunState& run)
       some_listen_early_{
           std::ranges::any_of(run.scenario.deployment.participants,
                               [](const Participant& one) { return one.open || one.ready; })},
+      drops_frames_{by_unit_ && queues_drop(wireless_)},
       sender_stalls_{wireless_.sender == Sender::stalls},
       counts_at_admission_{wireless_.count_at == CountAt::admission},
       takes_at_admission_{over_access_points_ || counts_at_admission_},
@@ -149,6 +150,7 @@ std::uint32_t Network::take(std::uint32_t source, Nanoseconds admitted) {
   sources_[source].take(flight.packet, next_recipient());
   const std::int64_t fragments = fragmentation_.count(flight.packet.payload_bytes);
   flight.fragments = static_cast<std::uint32_t>(fragments);
+  flight.at_source = flight.fragments;
   flight.demand = fragmentation_.demand(flight.packet.payload_bytes, fragments);
   flight.admitted = admitted;
   return slot;
@@ -469,6 +471,7 @@ void Network::report(RunResult& result) const {
     if (processors_ != nullptr) waiting.thread = processors_->waited(i);
   }
   result.latency = latency_;
+  if (drops_frames_) result.dropped = dropped_;
   result.repairs_received = repairs_received_;
   result.useful_repairs = useful_repairs_;
   // Where types are looked up, an answer that another packet brings may complete discovery.

@@ -44,6 +44,13 @@ class Network {
   /// A service, reception, source completion or dispatch event is due.
   void handle(const Event& event);
 
+  /// What follows from frames that queues dropped in this event, at its end.
+  void settle_drops() {
+    for (std::uint32_t channel = 0; drops_frames_ && channel < units_.size(); ++channel) {
+      while (const auto dropped = units_[channel].next_dropped()) settle(channel, *dropped);
+    }
+  }
+
   /// Whether what the participant is about to do has to wait, because packets of its own wait for
   /// room in its source queue (`sender: stalls`).
   [[nodiscard]] bool stalls(std::uint32_t participant) const {
@@ -71,7 +78,8 @@ class Network {
   struct InFlight {
     std::uint32_t source = 0;
     std::uint32_t fragments = 0;
-    std::uint32_t uses = 1;  // events that still need it; the slot is free at 0
+    std::uint32_t at_source = 0;  // of these, not yet on their way from it
+    std::uint32_t uses = 1;       // events that still need it; the slot is free at 0
     bool lost_on_the_way_up = false;
     std::int64_t demand = 0;
     Nanoseconds admitted;
@@ -116,6 +124,7 @@ class Network {
   [[nodiscard]] Flow flow_of(const InFlight& flight) const;
   void serve_unit(std::uint32_t channel);
   void unit_finished(std::uint32_t channel);
+  void settle(std::uint32_t channel, const DroppedFrame& dropped);
   void add_use(const ChannelState& c, std::array<Nanoseconds, traffic_class_count>& busy,
                Nanoseconds until) const;
   void transmit(Unit& unit, std::vector<std::uint32_t>& loses_at);
@@ -137,6 +146,7 @@ class Network {
   void arrive_at(std::uint32_t slot, std::uint32_t access_point);
   void arrive_on_cable(std::uint32_t slot);
   [[nodiscard]] std::optional<std::uint32_t> destination_of(const Packet& packet) const;
+  void lose_at_all(InFlight& flight, std::uint32_t access_point);
   void lose_multicast(std::uint32_t slot, std::uint32_t access_point,
                       std::vector<std::uint32_t>& loses_at);
   [[nodiscard]] std::int64_t transmit(ChannelState& c, std::int64_t airtime_ns);
@@ -179,6 +189,8 @@ class Network {
   const bool over_access_points_;   // each frame goes up to one and down from it, or from several
   const bool some_listen_early_;    // before they are ready
   std::vector<UnitChannel> units_;  // of `service: unit`, by channel
+  const bool drops_frames_;
+  DroppedFrames dropped_;
   std::optional<LinkLosses> losses_;
   std::unique_ptr<Processors> processors_;
   struct Held {

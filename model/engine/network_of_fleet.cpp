@@ -38,7 +38,8 @@ void Network::request_up(std::uint32_t slot, std::uint32_t fragment) {
   const std::uint32_t radio = fleet_.radio_of(access_point);
   if (!by_unit_) return request_stage(slot, fragment, 0, access_point);
   const std::int64_t bytes = fragmentation_.bytes(flight.packet.payload_bytes, fragment);
-  units_[radio].request_uplink(host, {next_request_++, slot, fragment, bytes}, flow_of(flight));
+  units_[radio].request_uplink(host, {next_request_++, slot, fragment, bytes, run_.now},
+                               flow_of(flight));
   unit_requested(radio);
 }
 
@@ -49,8 +50,8 @@ void Network::request_down(std::uint32_t slot, std::uint32_t fragment, std::uint
   const auto destination = destination_of(flight.packet);
   const std::uint32_t host = destination ? fleet_.host_of(*destination) : Flow::everybody;
   const std::int64_t bytes = fragmentation_.bytes(flight.packet.payload_bytes, fragment);
-  units_[radio].request_downlink(host, {next_request_++, slot, fragment, bytes}, flow_of(flight),
-                                 access_point);
+  units_[radio].request_downlink(host, {next_request_++, slot, fragment, bytes, run_.now},
+                                 flow_of(flight), access_point);
   unit_requested(radio);
 }
 
@@ -141,7 +142,7 @@ void Network::finish_up(std::uint32_t slot, std::uint32_t fragment, bool lost) {
     request_up(slot, fragment + 1);
   }
   if (!whole_datagrams && !lost) distribute(slot, fragment);
-  if (!last) return;
+  if (--flights_[slot].at_source > 0) return;
   leave_source(slot);
   release(slot);
 }
@@ -224,6 +225,15 @@ std::int64_t Network::transmit(ChannelState& c, std::int64_t airtime_ns) {
     ++transmissions;
   }
   return airtime_ns * transmissions;
+}
+
+/// What the access point does not send reaches none of its stations.
+void Network::lose_at_all(InFlight& flight, std::uint32_t access_point) {
+  const auto destination = destination_of(flight.packet);
+  if (destination) return flight.lost_at.push_back(fleet_.host_of(*destination));
+  for (std::uint32_t host = 0; host < fleet_.host_count(); ++host) {
+    if (fleet_.is_station(host, access_point)) flight.lost_at.push_back(host);
+  }
 }
 
 /// Nobody acknowledges multicast: each station hears it or not.

@@ -18,7 +18,7 @@ void Network::serve_unit(std::uint32_t channel) {
   UnitChannel& units = units_[channel];
   if (units.empty()) return;  // only a mutated table serves nothing
   ChannelState& c = channels_[channel];
-  c.unit = units.take();
+  c.unit = units.take(run_.now);
   c.loses_at.clear();
   if (losses_) transmit(c.unit, c.loses_at);
   c.serves = true;
@@ -72,6 +72,25 @@ void Network::unit_finished(std::uint32_t channel) {
     finish_down(frame.slot, frame.fragment, unit.access_point);
   }
   step<fsm::channel::EffectsDone>(channel);
+}
+
+/// A frame that a station drops goes no further; one that an access point drops is heard by none of
+/// its stations. Otherwise it is as if it had been sent.
+void Network::settle(std::uint32_t channel, const DroppedFrame& dropped) {
+  const Frame& frame = dropped.frame;
+  InFlight& flight = flights_[frame.slot];
+  const auto traffic = static_cast<std::size_t>(traffic_class(flight.packet));
+  const std::uint32_t stage = dropped.access_point ? 1 : 0;
+  ++(dropped.access_point ? dropped_.at_access_points : dropped_.at_stations)[traffic];
+  if (run_.who_hears(Report::dropped) != nullptr) {
+    run_.probe->dropped(channel, stage, flight.packet, frame.fragment);
+  }
+  if (run_.who_hears(Report::waiting_changed) != nullptr) {
+    run_.probe->waiting_changed(channel, units_[channel].size());
+  }
+  if (!dropped.access_point) return finish_up(frame.slot, frame.fragment, true);
+  lose_at_all(flight, *dropped.access_point);
+  finish_down(frame.slot, frame.fragment, *dropped.access_point);
 }
 
 /// The airtime of the unit up to then, by class: the overhead, what failed and its own airtime to

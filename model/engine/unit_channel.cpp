@@ -1,6 +1,7 @@
-// Whose turn it is, and what fits into a unit.
+// Whose turn it is, what fits into a unit, and what a queue drops.
 #include "model/engine/unit_channel.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace stormproof::model {
@@ -8,6 +9,7 @@ namespace stormproof::model {
 UnitChannel::UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts,
                          std::uint32_t access_points)
     : limits_{wireless.aggregation},
+      management_{wireless.queue.value_or(QueueManagement{})},
       in_turns_{wireless.arbitration == Arbitration::round_robin},
       queues_in_turns_{wireless.ap_queue == ApQueue::round_robin ||
                        wireless.queueing == Queueing::flows},
@@ -25,9 +27,25 @@ UnitChannel::UnitChannel(const WirelessProfile& wireless, std::uint32_t hosts,
       transmitters_[k].queues.push_back({FrameQueue{quantum}});
     }
   }
+  manage_queues(wireless);
 }
 
-Unit UnitChannel::take() {
+void UnitChannel::manage_queues(const WirelessProfile& wireless) {
+  const bool measures = management_.discipline == QueueDiscipline::codel ||
+                        management_.discipline == QueueDiscipline::fq_codel;
+  for (std::size_t k = 0; k < transmitters_.size(); ++k) {
+    Transmitter& transmitter = transmitters_[k];
+    if (k >= hosts_) transmitter.access_point = static_cast<std::uint32_t>(k - hosts_);
+    const QueuesOf others = k < hosts_ ? QueuesOf::access_points : QueuesOf::stations;
+    if (management_.of == others) continue;
+    transmitter.discipline = management_.discipline;
+    if (!measures) continue;
+    transmitter.codel = {management_.target.count(), management_.interval.count(),
+                         Fragmentation{wireless}.longest()};
+  }
+}
+
+Unit UnitChannel::take(Nanoseconds now) {
   const std::size_t chosen = choose_transmitter();
   Transmitter& transmitter = transmitters_[chosen];
   const std::size_t number = choose_queue(transmitter);
@@ -37,28 +55,95 @@ Unit UnitChannel::take() {
   Unit unit;
   unit.downlink = chosen >= hosts_;
   unit.multicast = unit.downlink && number == 0;
-  const std::size_t before = queue.frames.size();
-  if (unit.downlink) unit.access_point = static_cast<std::uint32_t>(chosen - hosts_);
+  if (unit.downlink) unit.access_point = *transmitter.access_point;
   if (unit.multicast) {
     unit.rate = multicast_;
-    unit.frames.push_back(*queue.frames.next());
+    unit.frames.push_back(*next_frame(transmitter, queue.frames, now));
     unit.duration_ns = multicast_.airtime_ns(unit.frames.front().bytes);
   } else {
     unit.host = static_cast<std::uint32_t>(unit.downlink ? number - 1 : chosen);
     unit.rate = unicast_[unit.host];
-    fill(unit, queue.frames);
+    fill(unit, transmitter, queue.frames, now);
   }
-  const std::size_t taken = before - queue.frames.size();
-  transmitter.waiting -= taken;
-  waiting_ -= taken;
   return unit;
 }
 
+std::optional<DroppedFrame> UnitChannel::next_dropped() {
+  if (dropped_.empty()) return std::nullopt;
+  const DroppedFrame first = dropped_.front();
+  dropped_.pop_front();
+  return first;
+}
+
+/// Where flows are kept apart, what is over the limit is taken from the longest one; otherwise the
+/// frame itself finds no room.
 void UnitChannel::push(Transmitter& transmitter, std::size_t queue, const Frame& frame,
                        const Flow& flow) {
+  joins(transmitter, frame);
+  if (transmitter.discipline != QueueDiscipline::fq_codel && is_over_limit(transmitter)) {
+    leaves(transmitter, frame);
+    return drop(transmitter, frame);
+  }
   transmitter.queues[queue].frames.push(frame, flow);
-  ++transmitter.waiting;
-  ++waiting_;
+  while (is_over_limit(transmitter)) shorten(transmitter);
+}
+
+bool UnitChannel::is_over_limit(const Transmitter& transmitter) const {
+  if (transmitter.discipline == QueueDiscipline::unlimited) return false;
+  return (management_.max_frames && transmitter.limited_frames > *management_.max_frames) ||
+         (management_.max_bytes && transmitter.limited_bytes > management_.max_bytes->count());
+}
+
+/// The line with the most bytes loses half of its frames, 64 at most, from its head (RFC
+/// 8290, 4.1).
+void UnitChannel::shorten(Transmitter& transmitter) {
+  FrameQueue* queue = nullptr;
+  FrameQueue::Line* longest = nullptr;
+  for (Queue& one : transmitter.queues) {
+    FrameQueue::Line* const line = FrameQueue::longer(longest, one.frames.longest());
+    if (line != longest) queue = &one.frames;
+    longest = line;
+  }
+  constexpr std::size_t most = 64;
+  for (std::size_t k = std::min((longest->frames.size() + 1) / 2, most); k > 0; --k) {
+    const Frame frame = queue->take_head(*longest);
+    leaves(transmitter, frame);
+    drop(transmitter, frame);
+  }
+}
+
+void UnitChannel::joins(Transmitter& transmitter, const Frame& frame) {
+  wait(transmitter, 1);
+  ++transmitter.limited_frames;
+  transmitter.limited_bytes += frame.bytes;
+}
+
+void UnitChannel::leaves(Transmitter& transmitter, const Frame& frame) {
+  wait(transmitter, -1);
+  --transmitter.limited_frames;
+  transmitter.limited_bytes -= frame.bytes;
+}
+
+void UnitChannel::wait(Transmitter& transmitter, int frames) {
+  transmitter.waiting += static_cast<std::size_t>(frames);
+  waiting_ += static_cast<std::size_t>(frames);
+}
+
+/// What did not fit into a unit has left its line already.
+std::optional<Frame> UnitChannel::next_frame(Transmitter& transmitter, FrameQueue& queue,
+                                             Nanoseconds now) {
+  if (queue.has_returned()) {
+    wait(transmitter, -1);
+    return queue.take_returned();
+  }
+  std::vector<Frame> late;
+  const std::optional<Frame> frame = queue.next(transmitter.codel, now, late);
+  for (const Frame& one : late) {
+    leaves(transmitter, one);
+    drop(transmitter, one);
+  }
+  if (frame) leaves(transmitter, *frame);
+  return frame;
 }
 
 std::size_t UnitChannel::choose_transmitter() const {
@@ -93,16 +178,17 @@ std::size_t UnitChannel::choose_queue(const Transmitter& transmitter) const {
 }
 
 /// The first frame always, further ones as long as they fit.
-void UnitChannel::fill(Unit& unit, FrameQueue& queue) const {
-  unit.frames.push_back(*queue.next());
+void UnitChannel::fill(Unit& unit, Transmitter& transmitter, FrameQueue& queue, Nanoseconds now) {
+  unit.frames.push_back(*next_frame(transmitter, queue, now));
   std::int64_t bytes = padded(unit.frames.front().bytes);
   while (unit.frames.size() < limits_.max_frames) {
-    const std::optional<Frame> frame = queue.next();
+    const std::optional<Frame> frame = next_frame(transmitter, queue, now);
     if (!frame) break;
     const std::int64_t longer = bytes + padded(frame->bytes);
     if (longer > limits_.max_bytes.count() ||
         airtime_ns(longer, unit.rate) > limits_.max_airtime.count()) {
       queue.put_back(*frame);
+      wait(transmitter, 1);
       break;
     }
     bytes = longer;

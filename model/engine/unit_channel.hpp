@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,12 @@ struct Unit {
   std::vector<Frame> frames;
   std::vector<bool> lost = {};  ///< by frame, if transmissions may fail
   std::int64_t duration_ns = 0;
+};
+
+/// A frame that a queue has dropped.
+struct DroppedFrame {
+  Frame frame;
+  std::optional<std::uint32_t> access_point = {};  ///< that dropped it; otherwise a station did
 };
 
 class UnitChannel {
@@ -51,7 +58,9 @@ class UnitChannel {
   [[nodiscard]] std::size_t size() const { return waiting_; }
 
   /// Takes what is sent next. Something must wait.
-  [[nodiscard]] Unit take();
+  [[nodiscard]] Unit take(Nanoseconds now);
+  /// The first of the frames that were dropped and that nobody has asked for.
+  [[nodiscard]] std::optional<DroppedFrame> next_dropped();
   /// How long a unit with these frames takes: one as it is, several with delimiters and padding.
   [[nodiscard]] std::int64_t duration_ns(const std::vector<Frame>& frames,
                                          const ServiceRate& rate) const;
@@ -71,15 +80,31 @@ class UnitChannel {
   struct Transmitter {
     std::vector<Queue> queues;
     std::size_t waiting = 0;
+    std::size_t limited_frames = 0;  // of these, without those that did not fit into a unit
+    std::int64_t limited_bytes = 0;
     std::uint64_t chosen = 0;
+    std::optional<std::uint32_t> access_point = {};  // that it is
+    QueueDiscipline discipline = QueueDiscipline::unlimited;
+    std::optional<CoDel::Limits> codel = {};
   };
 
+  void manage_queues(const WirelessProfile& wireless);
   void push(Transmitter& transmitter, std::size_t queue, const Frame& frame, const Flow& flow);
+  [[nodiscard]] bool is_over_limit(const Transmitter& transmitter) const;
+  void shorten(Transmitter& transmitter);
+  void joins(Transmitter& transmitter, const Frame& frame);
+  void leaves(Transmitter& transmitter, const Frame& frame);
+  void wait(Transmitter& transmitter, int frames);
+  void drop(const Transmitter& transmitter, const Frame& frame) {
+    dropped_.push_back({frame, transmitter.access_point});
+  }
   [[nodiscard]] std::size_t choose_transmitter() const;
   [[nodiscard]] std::size_t choose_queue(const Transmitter& transmitter) const;
-  void fill(Unit& unit, FrameQueue& queue) const;
+  void fill(Unit& unit, Transmitter& transmitter, FrameQueue& queue, Nanoseconds now);
+  std::optional<Frame> next_frame(Transmitter& transmitter, FrameQueue& queue, Nanoseconds now);
 
   const Aggregation limits_;
+  const QueueManagement management_;
   const bool in_turns_;         // of transmitters
   const bool queues_in_turns_;  // of the access point
   const std::size_t hosts_;
@@ -88,6 +113,7 @@ class UnitChannel {
   std::vector<Transmitter> transmitters_;  // the hosts, then the access points
   std::uint64_t choices_ = 0;
   std::size_t waiting_ = 0;
+  std::deque<DroppedFrame> dropped_;
 };
 
 }  // namespace stormproof::model

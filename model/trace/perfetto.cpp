@@ -127,6 +127,16 @@ void PerfettoWriter::service_started(std::uint32_t channel, std::uint32_t stage,
   ++serving_[channel];
 }
 
+void PerfettoWriter::dropped(std::uint32_t, std::uint32_t stage, const Packet& packet,
+                             std::uint32_t fragment) {
+  const std::uint32_t source = packet_ends(packet, *topology_).from;
+  Slice& slice =
+      slice_on(sender_track(packet, source), std::string{"dropped: "} + packet_label(packet));
+  add_arg(slice.args);
+  append(slice.args, R"("packet )", packet.number, R"( fragment )", fragment, R"(":)",
+         stages_[stage]);
+}
+
 void PerfettoWriter::arrived(const Packet& packet, bool lost) {
   if (!lost) return;
   const std::uint32_t source = packet_ends(packet, *topology_).from;

@@ -40,6 +40,8 @@ class PerfettoWriter final : public Probe {
                std::span<const std::uint32_t> destinations) override;
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
                        std::uint32_t fragment, Nanoseconds until) override;
+  void dropped(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+               std::uint32_t fragment) override;
   void arrived(const Packet& packet, bool lost) override;
   void received(const Packet& packet, std::uint32_t receiver) override;
   void backlog_changed(std::uint32_t participant, std::uint64_t packets,

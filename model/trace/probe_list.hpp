@@ -74,6 +74,11 @@ class ProbeList final : public Probe {
     for (Probe* probe : who_hears(Report::service_started))
       probe->service_started(channel, stage, packet, fragment, until);
   }
+  void dropped(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+               std::uint32_t fragment) override {
+    for (Probe* probe : who_hears(Report::dropped))
+      probe->dropped(channel, stage, packet, fragment);
+  }
   void source_completed(const Packet& packet) override {
     for (Probe* probe : who_hears(Report::source_completed, packet.kind))
       probe->source_completed(packet);

@@ -82,8 +82,8 @@ void TraceWriter::event_started(const Event& event) {
   event_ = event;
   in_event_ = true;
   transitions_.clear();
-  for (std::string* text : {&emitted_, &looped_back_, &service_, &left_source_, &arrived_,
-                            &received_, &packet_, &effects_}) {
+  for (std::string* text : {&emitted_, &looped_back_, &service_, &dropped_, &left_source_,
+                            &arrived_, &received_, &packet_, &effects_}) {
     text->clear();
   }
   if (effect_names_) effect_names_->event_started();
@@ -157,6 +157,13 @@ void TraceWriter::service_started(std::uint32_t channel, std::uint32_t stage, co
   append(service_, R"(,"until":)", until.count(), "}");
 }
 
+void TraceWriter::dropped(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+                          std::uint32_t fragment) {
+  append(dropped_, dropped_.empty() ? "" : ",", R"({"channel":)", channels_[channel],
+         R"(,"stage":)", stages_[stage], R"(,"packet":)", packet.number, R"(,"fragment":)",
+         fragment, "}");
+}
+
 void TraceWriter::source_completed(const Packet& packet) {
   if (!left_source_.empty()) left_source_ += ',';
   append(left_source_, packet.number);
@@ -200,6 +207,7 @@ void TraceWriter::event_finished(const Depths& depths) {
   if (!emitted_.empty()) append(line_, R"(,"emitted":[)", emitted_, "]");
   if (!looped_back_.empty()) append(line_, R"(,"looped_back":[)", looped_back_, "]");
   if (!service_.empty()) append(line_, R"(,"service":)", service_);
+  if (!dropped_.empty()) append(line_, R"(,"dropped":[)", dropped_, "]");
   append_whole_or_list("left_source", left_source_);
   append_whole_or_list("arrived", arrived_);
   if (!received_.empty()) append(line_, R"(,"received":)", received_);

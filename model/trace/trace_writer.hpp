@@ -47,6 +47,8 @@ class TraceWriter final : public Probe {
                std::span<const std::uint32_t> destinations) override;
   void service_started(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
                        std::uint32_t fragment, Nanoseconds until) override;
+  void dropped(std::uint32_t channel, std::uint32_t stage, const Packet& packet,
+               std::uint32_t fragment) override;
   void source_completed(const Packet& packet) override;
   void arrived(const Packet& packet, bool lost) override;
   void received(const Packet& packet, std::uint32_t receiver) override;
@@ -93,6 +95,7 @@ class TraceWriter final : public Probe {
   std::string emitted_;  // elements of arrays, or empty
   std::string looped_back_;
   std::string service_;  // objects, or empty
+  std::string dropped_;
   std::string arrived_;
   std::string received_;
   std::string left_source_;  // packet numbers, or empty

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "model/airtime.hpp"
 #include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 #include "model/life.hpp"
@@ -83,6 +84,27 @@ void draw_frame_loss(Dice& dice, WirelessProfile& w) {
   w.loss = loss;
 }
 
+void draw_queue(Dice& dice, WirelessProfile& w) {
+  constexpr std::int64_t us = 1'000;
+  QueueManagement queue;
+  const bool of_flows = w.queueing == Queueing::flows;
+  const bool measures = of_flows || dice.chance(50);
+  queue.discipline = of_flows   ? QueueDiscipline::fq_codel
+                     : measures ? QueueDiscipline::codel
+                                : QueueDiscipline::tail_drop;
+  queue.of = dice.choice<QueuesOf>(3);
+  queue.target = Nanoseconds{dice.among({5'000, 0, 500, 2'000, 20'000}) * us};
+  queue.interval = Nanoseconds{dice.among({100'000, 1'000, 3'000, 10'000}) * us};
+  if (!measures || dice.chance(60)) {
+    queue.max_frames = dice.pick<std::uint32_t>({1, 2, 5, 20, 100, dice.count(1, 300)});
+  }
+  if (dice.chance(30)) {
+    queue.max_bytes =
+        Bytes{std::max(dice.among({2'000, 8'000, 60'000}), Fragmentation{w}.longest())};
+  }
+  w.queue = queue;
+}
+
 void draw_processor(Dice& dice, Scenario& scenario) {
   constexpr std::int64_t us = 1'000;
   Processor processor;
@@ -157,6 +179,7 @@ void draw_types(Dice& dice, Scenario& scenario) {
       Bytes{dice.among({1'000, 3'000, 20'000, 106'496, 106'496})};
   scenario.wireless.lost_packets.clear();
   scenario.wireless.loss.reset();
+  scenario.wireless.queue.reset();
   scenario.time_limit = std::max(scenario.time_limit, Nanoseconds{3'000 * ms});
 }
 

@@ -19,6 +19,8 @@ void draw_radio(Dice& dice, model::WirelessProfile& wireless);
 void draw_fleet(Dice& dice, model::Deployment& deployment);
 /// Transmissions that fail, often or in bursts, with few retries.
 void draw_frame_loss(Dice& dice, model::WirelessProfile& wireless);
+/// Queues of a channel of units that drop frames, with limits that matter in short runs.
+void draw_queue(Dice& dice, model::WirelessProfile& wireless);
 /// Threads that take a time that matters.
 void draw_processor(Dice& dice, model::Scenario& scenario);
 

@@ -73,6 +73,7 @@ template <class Watch>
   asking.dds.version.type_lookup = model::Whether::yes;
   asking.wireless.lost_packets.clear();
   asking.wireless.loss.reset();
+  asking.wireless.queue.reset();
   return observed<Watch>(asking, simulate);
 }
 

@@ -130,6 +130,7 @@ class Attentive final : public M, public model::trace::Selective {
     hears(rescheduled, &M::rescheduled, &Probe::rescheduled);
     hears(emitted, &M::emitted, &Probe::emitted);
     hears(service_started, &M::service_started, &Probe::service_started);
+    hears(dropped, &M::dropped, &Probe::dropped);
     hears(source_completed, &M::source_completed, &Probe::source_completed);
     hears(arrived, &M::arrived, &Probe::arrived);
     hears(received, &M::received, &Probe::received);

@@ -73,6 +73,7 @@ std::vector<std::int64_t> arrivals(const model::WirelessProfile& wireless, std::
     } else {
       network.handle(event);
     }
+    network.settle_drops();
   }
   return listener.arrived;
 }

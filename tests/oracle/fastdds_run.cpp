@@ -256,6 +256,7 @@ FastddsOutcome run(const model::Scenario& given, const EventLog& log, Mistake mi
       if (actor && of_protocol) w.cost += w.scenario.hosts->timer.count();
       if (log) log(log_entry(key, event));
       if (!is_void(w, std::get<1>(key), event)) process(w, event);
+      settle_drops(w);
     }
     if (actor) finish(w, *actor);
     if (scenario.deployment.life) note_completion(w);

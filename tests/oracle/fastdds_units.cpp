@@ -99,7 +99,7 @@ std::vector<Frame>::iterator first_of(UnitQueue& queue, const std::string& flow)
                       [&](const Frame& frame) { return frame.flow == flow; });
 }
 
-std::optional<Frame> next_frame_of_flows(const World& w, UnitQueue& queue) {
+std::optional<Frame> next_frame_of_flows(World& w, UnitQueue& queue) {
   while (!queue.new_flows.empty() || !queue.old_flows.empty()) {
     const bool is_new = !queue.new_flows.empty();
     std::vector<std::string>& list = is_new ? queue.new_flows : queue.old_flows;
@@ -116,8 +116,7 @@ std::optional<Frame> next_frame_of_flows(const World& w, UnitQueue& queue) {
       const bool others = !queue.old_flows.empty() && !w.makes(WifiMistake::empty_flow_leaves);
       if (is_new && others) queue.old_flows.push_back(flow);
     } else {
-      const Frame taken = *frame;
-      queue.frames.erase(frame);
+      const Frame taken = take_from_line(w, queue, flow);
       deficit -= taken.bytes;
       return taken;
     }
@@ -125,7 +124,7 @@ std::optional<Frame> next_frame_of_flows(const World& w, UnitQueue& queue) {
   return std::nullopt;
 }
 
-std::optional<Frame> next_frame(const World& w, UnitQueue& queue, bool flows) {
+std::optional<Frame> next_frame(World& w, UnitQueue& queue, bool flows) {
   if (queue.returned) {
     const Frame taken = *queue.returned;
     queue.returned.reset();
@@ -133,9 +132,7 @@ std::optional<Frame> next_frame(const World& w, UnitQueue& queue, bool flows) {
   }
   if (flows) return next_frame_of_flows(w, queue);
   if (queue.frames.empty()) return std::nullopt;
-  const Frame taken = queue.frames.front();
-  queue.frames.erase(queue.frames.begin());
-  return taken;
+  return take_from_line(w, queue, queue.frames.front().flow);
 }
 
 void put_back(const World& w, UnitQueue& queue, const Frame& frame, bool flows) {
@@ -176,7 +173,7 @@ std::int64_t bytes_of(const World& w, const std::vector<Frame>& frames) {
   return sum;
 }
 
-std::vector<Frame> fill(const World& w, UnitQueue& queue, bool flows, model::BitsPerSecond rate) {
+std::vector<Frame> fill(World& w, UnitQueue& queue, bool flows, model::BitsPerSecond rate) {
   std::vector<Frame> unit{*next_frame(w, queue, flows)};
   const std::size_t most = wireless(w).aggregation.max_frames;
   const std::size_t less = w.makes(WifiMistake::limit_of_frames_early) ? 1 : 0;
@@ -218,7 +215,7 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
   frame.packet = packet.id;
   frame.fragment = fragment;
   frame.bytes = packet.fragments.at(fragment);
-  frame.flow = flow_of(w, packet);
+  frame.since = w.now;
 
   const std::vector<std::string> all = access_points(w);
   const auto number = std::find(all.begin(), all.end(), access_point) - all.begin();
@@ -227,7 +224,15 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
   const bool multicast = !packet.destination.has_value();
   const Id to = !down || multicast ? 0 : 1 + w.participants.at(*packet.destination).host;
   const std::string radio = radio_of(w, access_point);
-  UnitQueue& queue = w.airs[radio].transmitters[from].queues[to];
+  Transmitter& transmitter = w.airs[radio].transmitters[from];
+  UnitQueue& queue = transmitter.queues[to];
+  if (down) queue.access_point = access_point;
+  frame.flow = keeps_flows(w, from, to) ? flow_of(w, packet) : "";
+  if (!finds_room(w, transmitter, queue, frame)) {
+    w.drops.push_back({frame, queue.access_point});
+    schedule_dispatch(w, radio);
+    return;
+  }
   queue.frames.push_back(frame);
 
   const auto lists = [&](const std::vector<std::string>& list) {
@@ -241,6 +246,7 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
     (w.makes(WifiMistake::new_flows_behind_old) ? queue.old_flows : queue.new_flows)
         .push_back(frame.flow);
   }
+  shorten(w, transmitter, queue);
   schedule_dispatch(w, radio);
 }
 
@@ -331,7 +337,7 @@ void unit_finished(World& w, const std::string& radio) {
     }
     if (fails) w.packets.at(frame.packet).stopped = true;
     if (!fails) distribute(w, packet.id, frame.fragment);
-    if (!last) continue;
+    if (++w.packets.at(packet.id).gone < packet.fragments.size()) continue;
     if (w.makes(WifiMistake::admission_after_the_unit)) {
       later.push_back(packet.id);
     } else {
@@ -379,6 +385,7 @@ std::vector<std::int64_t> feed_units(const model::WirelessProfile& wireless, std
     } else {
       service_finished(w, event);
     }
+    settle_drops(w);
   }
   return arrived;
 }

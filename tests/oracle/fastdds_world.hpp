@@ -152,6 +152,7 @@ struct Packet {
   Time emitted = 0;
   bool lost = false;
   bool stopped = false;                       // a fragment did not get to the access point
+  std::size_t gone = 0;                       // fragments that have left the station
   std::set<Id> deaf;                          // hosts that did not hear all of it
   std::vector<std::int64_t> fragments;        // bytes on the channel
   std::map<std::size_t, std::size_t> served;  // stage → fragments served in it
@@ -324,10 +325,28 @@ struct Frame {
   std::size_t fragment = 0;
   std::int64_t bytes = 0;
   std::string flow;
+  Time since = 0;
+};
+
+/// What CoDel remembers of a line of frames, by the names of RFC 8289.
+struct CodelState {
+  bool dropping = false;
+  std::optional<Time> first_above_time;
+  Time drop_next = 0;
+  std::int64_t count = 0;
+  std::int64_t lastcount = 0;
+};
+
+/// A frame that a station, or else an access point, has dropped.
+struct Drop {
+  Frame frame;
+  std::optional<std::string> access_point;
 };
 
 /// What a transmitter has for one destination.
 struct UnitQueue {
+  std::optional<std::string> access_point;  // that it is at
+  std::map<std::string, CodelState> codel;  // by flow
   std::uint64_t chosen = 0;
   std::vector<Frame> frames;  // by arrival
   std::optional<Frame> returned;
@@ -381,6 +400,7 @@ struct World {
   std::map<std::tuple<Id, int, std::string>, std::vector<std::pair<Id, Id>>> waiting;
   std::map<std::string, Channel> channels;
   std::map<std::string, Air> airs;  // by channel of access points
+  std::deque<Drop> drops;           // of this event
   std::map<std::pair<std::string, Time>, std::vector<std::pair<std::uint64_t, std::size_t>>>
       asleep;                           // (access point, beacon) → packets and fragments
   std::map<Id, std::deque<Id>> queues;  // for a core, by host
@@ -453,6 +473,13 @@ void request_unit(World& w, const Packet& packet, std::size_t fragment, bool dow
                   const std::string& access_point);
 void dispatch_unit(World& w, const std::string& radio);
 void unit_finished(World& w, const std::string& radio);
+
+// fastdds_queues.cpp
+/// The flow of each frame where flows are kept apart; otherwise all are in one line.
+[[nodiscard]] bool finds_room(World& w, Transmitter& at, UnitQueue& queue, const Frame& frame);
+void shorten(World& w, Transmitter& at, UnitQueue& joined);
+[[nodiscard]] Frame take_from_line(World& w, UnitQueue& queue, const std::string& flow);
+void settle_drops(World& w);
 
 // fastdds_fleet.cpp
 [[nodiscard]] bool over_access_points(const World& w);

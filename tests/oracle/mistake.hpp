@@ -227,6 +227,26 @@ enum class WifiMistake : std::uint8_t {
   receptions_free,            ///< receptions take no time and wait for nothing
   submessages_received_free,  ///< a datagram is received in the same time whatever is in it
   nobody_deaf,                ///< a participant hears from its start on
+  // Queues that drop.
+  queues_keep_all,          ///< no queue drops anything
+  stations_drop_too,        ///< `of` has no effect
+  limit_for_each_queue,     ///< the limit is of a queue, not of all that a transmitter has
+  returned_frame_limited,   ///< what did not fit into a unit counts towards it
+  target_excluded,          ///< a frame that waited for exactly the target waited for less
+  last_frames_dropped,      ///< frames are dropped though few bytes are left
+  first_drop_at_once,       ///< the first frame is dropped without an interval of waiting
+  drops_at_one_distance,    ///< the distance of drops does not shrink
+  drops_counted_from_now,   ///< the next one is due a distance after this one, not after its time
+  one_drop_at_a_time,       ///< several that are due together are not
+  every_storm_begins_anew,  ///< a count is never taken up again
+  count_always_taken_up,    ///< or however long ago it was
+  longest_loses_one,        ///< over the limit the longest line loses one frame
+  longest_loses_all,        ///< or all that it has, 64 at most
+  longest_by_frames,        ///< the longest line is that with the most frames
+  longest_loses_newest,     ///< it loses what came last
+  dropped_frames_charged,   ///< a flow pays for frames that were dropped, too
+  dropped_multicast_heard,  ///< what an access point drops is heard by those who hear the rest
+  dropped_packet_stays,     ///< a packet whose last fragment was dropped stays in its source queue
 };
 
 /// What the oracle of Fast DDS's Discovery Server and its clients does wrong
@@ -362,7 +382,10 @@ inline constexpr std::size_t first_fastdds_mistake_of_versions =
 inline constexpr std::size_t first_fastdds_mistake_of_lookups =
     static_cast<std::size_t>(FastddsMistake::types_without_bytes);
 inline constexpr std::size_t wifi_mistake_count =
-    static_cast<std::size_t>(WifiMistake::nobody_deaf) + 1;
+    static_cast<std::size_t>(WifiMistake::dropped_packet_stays) + 1;
+/// From this one on they are about queues that drop.
+inline constexpr std::size_t first_wifi_mistake_of_queues =
+    static_cast<std::size_t>(WifiMistake::queues_keep_all);
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.
 inline constexpr WifiMistake last_of_one_access_point = WifiMistake::counted_at_generation;
 inline constexpr std::size_t server_mistake_count =

@@ -82,23 +82,41 @@ TEST(MutatedOracle, EveryMistakeOfTheWifiOracleIsNoticed) {
 TEST(MutatedOracle, EveryMistakeOfTheFleetOracleIsNoticed) {
   JudgedRuns runs{varied_fleet_scenario, correct_product};
   const auto first = static_cast<std::size_t>(last_of_one_access_point) + 1;
-  EXPECT_EQ(unnoticed<WifiMistake>(runs, wifi_mistake_count, first), std::vector<std::string>{});
+  EXPECT_EQ(unnoticed<WifiMistake>(runs, first_wifi_mistake_of_queues, first),
+            std::vector<std::string>{});
 }
 
-TEST(MutatedOracle, EveryMistakeOfTheChannelIsNoticedInListsOfPackets) {
+TEST(MutatedOracle, EveryMistakeOfQueuesIsNoticed) {
+  JudgedRuns runs{varied_queue_scenario, correct_product};
+  EXPECT_EQ(unnoticed<WifiMistake>(runs, wifi_mistake_count, first_wifi_mistake_of_queues),
+            std::vector<std::string>{});
+}
+
+/// Of the mistakes from the first one until before the end.
+std::vector<std::string> unnoticed_in_lists(PacketList (*list_of)(std::uint64_t), std::size_t first,
+                                            std::size_t end) {
   std::vector<std::string> unnoticed;
-  const auto last = static_cast<std::size_t>(WifiMistake::returned_frame_in_flow);
-  for (std::size_t k = 1; k <= last; ++k) {
+  for (std::size_t k = first; k < end; ++k) {
     const auto mistake = static_cast<WifiMistake>(k);
     bool noticed = false;
     for (std::uint64_t seed = 0; seed < tries && !noticed; ++seed) {
-      const PacketList list = random_packet_list(seed);
+      const PacketList list = list_of(seed);
       noticed = arrivals(list.wireless, list.hosts, list.packets) !=
                 feed_units(list.wireless, list.hosts, list.packets, mistake);
     }
     if (!noticed) unnoticed.emplace_back(name_of(mistake));
   }
-  EXPECT_EQ(unnoticed, std::vector<std::string>{});
+  return unnoticed;
+}
+
+TEST(MutatedOracle, EveryMistakeOfTheChannelIsNoticedInListsOfPackets) {
+  const auto last = static_cast<std::size_t>(WifiMistake::returned_frame_in_flow);
+  EXPECT_EQ(unnoticed_in_lists(random_packet_list, 1, last + 1), std::vector<std::string>{});
+}
+
+TEST(MutatedOracle, EveryMistakeOfQueuesIsNoticedInListsOfPackets) {
+  EXPECT_EQ(unnoticed_in_lists(random_queue_list, first_wifi_mistake_of_queues, wifi_mistake_count),
+            std::vector<std::string>{});
 }
 
 TEST(MutatedOracle, MistakesHaveNames) {

@@ -21,7 +21,7 @@ bool someone_is_awaited(const Writer& writer) {
                      [&](Id j) { return is_awaited(writer, j); });
 }
 
-void schedule_expiry(World& w, Id i, int s) {
+void schedule_measured_expiry(World& w, Id i, int s) {
   Writer& writer = w.writers.at({i, s});
   writer.active = true;
   Event event;
@@ -41,7 +41,7 @@ void ask(World& w, Id i, int s) {
   writer.responded.clear();
   writer.cycle_start = w.now;
   for (const Id j : readers) generate_heartbeat(w, i, j, s);
-  if (!readers.empty()) schedule_expiry(w, i, s);
+  if (!readers.empty()) schedule_measured_expiry(w, i, s);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ void begin_measuring(World& w, Id i, int s) {
   Writer& writer = w.writers.at({i, s});
   if (writer.active && !w.makes(Mistake::measuring_begins_anew)) return;
   writer.period = w.sedp.heartbeat_period.count();
-  schedule_expiry(w, i, s);
+  schedule_measured_expiry(w, i, s);
 }
 
 void measured_expiry(World& w, Id i, int s, std::uint64_t token) {

@@ -250,15 +250,25 @@ Scenario varied_fleet_scenario(std::uint64_t seed) {
   return scenario;
 }
 
-PacketList random_packet_list(std::uint64_t seed) {
-  Dice dice{seed};
-  PacketList list;
-  props::draw_units(dice, list.wireless);
-  list.wireless.source_queue_bytes = Bytes{dice.among({212'992, 212'992, 1, 300, 2'000})};
-  list.hosts = dice.count(2, 4);
+Scenario varied_queue_scenario(std::uint64_t seed) {
+  Scenario scenario = varied_fleet_scenario(seed);
+  Dice dice{seed + 3};
+  if (scenario.wireless.service == model::ServedBy::frame) {
+    scenario.wireless.arbitration = model::Arbitration::round_robin;
+    props::draw_units(dice, scenario.wireless);
+  }
+  props::draw_queue(dice, scenario.wireless);
+  return scenario;
+}
+
+namespace {
+
+/// Packets between hosts, of which `together` of a hundred come at the time of the one before.
+void draw_packets(Dice& dice, std::int64_t count, int together, std::int64_t pause,
+                  PacketList& list) {
   std::int64_t time = 0;
-  for (std::int64_t k = dice.between(1, 40); k > 0; --k) {
-    if (dice.chance(40)) time += dice.between(0, 400'000);
+  for (std::int64_t k = count; k > 0; --k) {
+    if (dice.chance(100 - together)) time += dice.between(0, pause);
     vectors::ChannelPacket packet;
     packet.time_ns = time;
     packet.source = dice.count(0, list.hosts - 1);
@@ -270,6 +280,29 @@ PacketList random_packet_list(std::uint64_t seed) {
     if (packet.destination) packet.port = static_cast<std::uint8_t>(dice.between(0, 3));
     list.packets.push_back(packet);
   }
+}
+
+}  // namespace
+
+PacketList random_packet_list(std::uint64_t seed) {
+  Dice dice{seed};
+  PacketList list;
+  props::draw_units(dice, list.wireless);
+  list.wireless.source_queue_bytes = Bytes{dice.among({212'992, 212'992, 1, 300, 2'000})};
+  list.hosts = dice.count(2, 4);
+  draw_packets(dice, dice.between(1, 40), 60, 400'000, list);
+  return list;
+}
+
+PacketList random_queue_list(std::uint64_t seed) {
+  Dice dice{seed};
+  PacketList list;
+  props::draw_units(dice, list.wireless);
+  props::draw_queue(dice, list.wireless);
+  list.wireless.source_queue_bytes = Bytes{dice.among({212'992, 212'992, 1, 2'000, 20'000})};
+  list.hosts = dice.count(2, 4);
+  const std::int64_t pause = dice.among({400'000, 1'500'000});
+  draw_packets(dice, dice.between(20, 200), 70, pause, list);
   return list;
 }
 

@@ -34,6 +34,9 @@ namespace stormproof::oracle {
 /// or several, with frames or units.
 [[nodiscard]] model::Scenario varied_fleet_scenario(std::uint64_t seed);
 
+/// One of these with a channel of units whose queues drop frames.
+[[nodiscard]] model::Scenario varied_queue_scenario(std::uint64_t seed);
+
 /// A channel of units with limits that matter, and packets for it, by time.
 struct PacketList {
   model::WirelessProfile wireless;
@@ -41,5 +44,7 @@ struct PacketList {
   std::vector<vectors::ChannelPacket> packets;
 };
 [[nodiscard]] PacketList random_packet_list(std::uint64_t seed);
+/// A longer one, for queues that drop frames.
+[[nodiscard]] PacketList random_queue_list(std::uint64_t seed);
 
 }  // namespace stormproof::oracle

@@ -217,6 +217,10 @@ TEST_P(RandomRuns, OverListedHostsLossesAndProcessorsHaveTrueFindingsOnly) {
   each("fleet", short_runs(), oracle::varied_fleet_scenario);
 }
 
+TEST_P(RandomRuns, OverQueuesThatDropHaveTrueFindingsOnly) {
+  each("queue", short_runs(), oracle::varied_queue_scenario);
+}
+
 /// Rules and lives of the museum: valid as drawn, and the network keeps its own rules whatever
 /// writers and readers do over it.
 TEST_P(RandomRuns, OfAmendedRulesHaveTrueFindingsOnly) {

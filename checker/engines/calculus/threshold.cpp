@@ -81,7 +81,7 @@ bool pushes_keep_order(const model::WirelessProfile& wireless, const OpenLoop* t
   if (wireless.kind == model::ServiceKind::constant_delay) {
     return props::takes_equal_times(wireless);
   }
-  if (wireless.loss) return false;
+  if (wireless.loss || model::queues_drop(wireless)) return false;
   if (wireless.service == model::ServedBy::unit) {
     return wireless.queueing == model::Queueing::fifo;
   }

@@ -201,6 +201,24 @@ void add_channels(Blocks& blocks, const RunResult& result) {
   }
 }
 
+/// What queues dropped, by class.
+void add_drops(Blocks& blocks, const RunResult& result) {
+  if (!result.dropped) return;
+  Table table{{{"dropped frames"}, {"at stations", to_right}, {"at access points", to_right}}, {}};
+  for (std::size_t k = 0; k < model::traffic_class_count; ++k) {
+    const std::uint64_t up = result.dropped->at_stations[k];
+    const std::uint64_t down = result.dropped->at_access_points[k];
+    if (up + down == 0) continue;
+    table.rows.push_back(
+        {{words_of(static_cast<model::TrafficClass>(k)), grouped(up), grouped(down)}});
+  }
+  if (table.rows.empty()) {
+    blocks.emplace_back(Paragraph{"queues dropped no frame"});
+  } else {
+    blocks.emplace_back(std::move(table));
+  }
+}
+
 Table delays(const RunResult& result) {
   Table table{{{"delay of packets"},
                {"received", to_right},
@@ -368,6 +386,7 @@ Document document_of(const Simulation& s) {
         "lookups: questions about types, and answers, one for each receiver; in no class"});
   }
   add_channels(blocks, s.result);
+  add_drops(blocks, s.result);
   add_missing(blocks, s.result);
   blocks.emplace_back(reading(s.result));
   Section waiting{"Where packets wait", "waiting", {delays(s.result)}};

@@ -124,6 +124,25 @@ void describe(V& v, const ChannelOfRun& one) {
   v("busy_ns_by_class", BusyByClass{one.channel});
 }
 
+struct ByClass {
+  const std::array<std::uint64_t, model::traffic_class_count>& frames;
+};
+
+template <class V>
+void describe(V& v, const ByClass& one) {
+  describe_by_class(v, one.frames);
+}
+
+struct Dropped {
+  const model::DroppedFrames& frames;
+};
+
+template <class V>
+void describe(V& v, const Dropped& dropped) {
+  v("stations", ByClass{dropped.frames.at_stations});
+  v("access_points", ByClass{dropped.frames.at_access_points});
+}
+
 struct BacklogOfParticipant {
   std::size_t participant = 0;
   const model::BacklogPeak& peak;
@@ -218,6 +237,9 @@ void describe(V& v, const Simulation& s) {
   v.unless_empty("limits", by_name(s.limits));
   v("missing", Missing{result});
   v("channels", channels);
+  std::optional<Dropped> dropped;
+  if (result.dropped) dropped.emplace(Dropped{*result.dropped});
+  v.unless_empty("dropped_frames", dropped);
   v("backlog", backlog);
   v("latency", LatencyByClass{result});
   v("deliveries", Deliveries{result});

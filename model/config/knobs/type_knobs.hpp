@@ -30,7 +30,7 @@ void visit_knobs(auto& visit, Is<EndpointTypes> auto& types) {
 /// A sample that is lost nobody repeats here, as Fast DDS would, so nothing may be.
 [[nodiscard]] inline bool loses_nothing(const Scenario& scenario) {
   return scenario.wireless.lost_packets.empty() && !scenario.wireless.loss &&
-         !(scenario.vary && scenario.vary->loss);
+         !queues_drop(scenario.wireless) && !(scenario.vary && scenario.vary->loss);
 }
 
 void visit_types(auto& visit, Is<Scenario> auto& scenario) {
@@ -45,7 +45,8 @@ void visit_types(auto& visit, Is<Scenario> auto& scenario) {
              "no types where participants fail or come back (deployment.life, vary.outages, "
              "vary.restarts)");
   visit.rule(loses_nothing(scenario), types_key,
-             "no types where packets are lost (wireless.lost_packets, wireless.loss, vary.loss)");
+             "no types where packets are lost (wireless.lost_packets, wireless.loss, "
+             "wireless.queue, vary.loss)");
   const std::size_t all = fastdds::most_types(*scenario.deployment.types);
   const std::int64_t bytes = fastdds::largest_sample_bytes(scenario.dds, all);
   visit.rule(

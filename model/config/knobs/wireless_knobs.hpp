@@ -2,6 +2,9 @@
 // file. See knobs.hpp for what visits it.
 #pragma once
 
+#include <fmt/core.h>
+
+#include "model/airtime.hpp"
 #include "model/config/knobs/knobs.hpp"
 #include "model/config/knobs/value_types.hpp"
 #include "model/wireless_profile.hpp"
@@ -28,6 +31,12 @@ template <>
 inline constexpr std::array<std::string_view, 2> enum_names<ApQueue>{"oldest", "round_robin"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Queueing>{"fifo", "flows"};
+template <>
+inline constexpr std::array<std::string_view, 4> enum_names<QueueDiscipline>{
+    "unlimited", "tail_drop", "codel", "fq_codel"};
+template <>
+inline constexpr std::array<std::string_view, 3> enum_names<QueuesOf>{"everybody", "access_points",
+                                                                      "stations"};
 template <>
 inline constexpr std::array<std::string_view, 2> enum_names<Sender>{"backlog", "stalls"};
 template <>
@@ -103,13 +112,48 @@ void visit_knobs(auto& visit, Is<FrameLoss> auto& loss) {
                 Presence::optional);
 }
 
+void visit_knobs(auto& visit, Is<QueueManagement> auto& queue) {
+  visit.knob("discipline", queue.discipline, ChoiceType<QueueDiscipline>{},
+             "which frames are dropped: none, those that find no room, those that waited for too "
+             "long (RFC 8289), or those of each flow (RFC 8290)");
+  visit.knob("of", queue.of, UsualChoiceType<QueuesOf>{{}, QueuesOf::everybody},
+             "whose queues: everybody's if absent, those of access points or of stations",
+             Presence::defaulted);
+  visit.knob("max_frames", queue.max_frames, count_range(1, 1'000'000'000),
+             "frames that wait at a transmitter; any number if absent", Presence::optional);
+  visit.knob("max_bytes", queue.max_bytes, byte_range(1, 1'000'000'000'000),
+             "bytes on the channel of these; any number if absent", Presence::optional);
+  visit.knob("target", queue.target, delay_range,
+             "how long a frame may wait, with codel and fq_codel; 5ms if absent",
+             Presence::defaulted);
+  visit.knob("interval", queue.interval, period_range,
+             "how long frames may wait for longer before one is dropped; 100ms if absent",
+             Presence::defaulted);
+  visit.rule(queue.discipline != QueueDiscipline::tail_drop || queue.max_frames || queue.max_bytes,
+             "discipline", "max_frames or max_bytes, or another discipline than tail_drop");
+}
+
 inline constexpr std::string_view service_key = "service";
 inline constexpr std::string_view loss_key = "loss";
+inline constexpr std::string_view queue_key = "queue";
 
 /// From a host to its access point, and from there on, over one channel or two.
 [[nodiscard]] inline bool goes_over_access_point(const WirelessProfile& wireless) {
   return wireless.kind == ServiceKind::shared_channel &&
          (wireless.service == ServedBy::unit || wireless.stages.size() == 2);
+}
+
+/// Flows are kept apart where they are dropped from, and nowhere else; whatever arrives fits alone.
+void visit_queue(auto& visit, Is<WirelessProfile> auto& wireless, Presence presence) {
+  visit.section(queue_key, wireless.queue,
+                "which frames that wait for the channel are dropped; none if absent", presence);
+  if (!queues_drop(wireless)) return;
+  const bool of_flows = wireless.queue->discipline == QueueDiscipline::fq_codel;
+  visit.rule(of_flows == (wireless.queueing == Queueing::flows), "queue.discipline",
+             "fq_codel with queueing: flows, or tail_drop or codel with queueing: fifo");
+  const std::int64_t longest = Fragmentation{wireless}.longest();
+  visit.rule(!wireless.queue->max_bytes || wireless.queue->max_bytes->count() >= longest,
+             "queue.max_bytes", fmt::format("at least {}, the bytes of a full frame", longest));
 }
 
 /// What only `service: unit` has.
@@ -130,6 +174,7 @@ void visit_unit_knobs(auto& visit, Is<WirelessProfile> auto& wireless) {
              presence);
   visit.knob("quantum", wireless.quantum, byte_range(1, 1'000'000'000),
              "bytes that a flow may send before the next one; 300 if absent", presence);
+  visit_queue(visit, wireless, by_unit ? Presence::optional : Presence::of_others);
   visit.rule(!by_unit || wireless.arbitration == Arbitration::round_robin ||
                  (wireless.queueing == Queueing::fifo && wireless.ap_queue == ApQueue::oldest),
              "arbitration", "round_robin, or queueing: fifo with ap_queue: oldest");

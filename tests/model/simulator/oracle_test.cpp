@@ -37,6 +37,7 @@ std::vector<Part> parts(int first, int end) {
     list.push_back({"Cyclone", oracle::varied_cyclone_scenario, k});
     list.push_back({"Wifi", oracle::varied_wifi_scenario, k});
     list.push_back({"Fleet", oracle::varied_fleet_scenario, k});
+    list.push_back({"Queue", oracle::varied_queue_scenario, k});
   }
   return list;
 }
@@ -47,13 +48,21 @@ const auto name = [](const auto& test) {
 INSTANTIATE_TEST_SUITE_P(FirstScenarios, AgainstOracle, testing::ValuesIn(parts(0, 1)), name);
 INSTANTIATE_TEST_SUITE_P(RandomScenarios, AgainstOracle, testing::ValuesIn(parts(1, 20)), name);
 
-TEST(ChannelAgainstOracle, PacketsArriveAtTheSameTimes) {
+void expect_same_arrivals(oracle::PacketList (*list_of)(std::uint64_t)) {
   for (std::uint64_t seed = 0; seed < 2'000; ++seed) {
-    const oracle::PacketList list = oracle::random_packet_list(seed);
+    const oracle::PacketList list = list_of(seed);
     ASSERT_EQ(arrivals(list.wireless, list.hosts, list.packets),
               oracle::feed_units(list.wireless, list.hosts, list.packets))
         << "seed " << seed;
   }
+}
+
+TEST(ChannelAgainstOracle, PacketsArriveAtTheSameTimes) {
+  expect_same_arrivals(oracle::random_packet_list);
+}
+
+TEST(ChannelAgainstOracle, QueuesDropTheSamePackets) {
+  expect_same_arrivals(oracle::random_queue_list);
 }
 
 }  // namespace oracle_test

@@ -67,6 +67,9 @@ std::vector<Scenario> drawn_on_demand() {
     Dice dice{seed};
     draw_radio(dice, radio.wireless);
     list.push_back(radio);
+    if (radio.wireless.service == model::ServedBy::unit) {
+      draw_queue(dice, list.back().wireless);
+    }
     radio.wireless.stages = model::WirelessProfile{}.stages;
     draw_fleet(dice, radio.deployment);
     draw_frame_loss(dice, radio.wireless);

@@ -111,7 +111,7 @@ TEST(JsonSchemaContent, units_need_no_stages_and_forbid_them) {
   EXPECT_EQ(forbidden[0]["then"]["properties"],
             nlohmann::json({{"order", false}, {"stages", false}}));
   EXPECT_EQ(forbidden[1]["if"]["properties"]["service"]["const"], "frame");
-  EXPECT_EQ(forbidden[1]["then"]["properties"].size(), 5U);
+  EXPECT_EQ(forbidden[1]["then"]["properties"].size(), 6U);
   EXPECT_TRUE(schema["properties"].contains("aggregation"));
 }
 
