@@ -256,5 +256,26 @@ TEST(AccessPointChannel, AccountsForEveryFrameAndNanosecond) {
   EXPECT_EQ(statistics.deepest_queue, 4U);
 }
 
+TEST(AccessPointChannel, QueuesOfTheProfileDrop) {
+  model::WirelessProfile wireless = emulated();
+  wireless.service = model::ServedBy::unit;
+  wireless.fragment_request = model::FragmentRequest::at_admission;
+  wireless.queue =
+      model::QueueManagement{model::QueueDiscipline::tail_drop, model::QueuesOf::everybody, 1, {}};
+  wireless.aggregation.max_frames = 1;
+  Bed bed{{}, {}, wireless};
+  EXPECT_TRUE(bed.send(0, 0));
+  EXPECT_TRUE(bed.send(0, 0));  // the queue of the station is full
+  const std::vector<Service> services = bed.until(long_time);
+  ASSERT_EQ(services.size(), 3U);
+  EXPECT_EQ(services[0].outcome, ServiceEnd::dropped);
+  EXPECT_EQ(services[0].direction, Direction::uplink);
+  EXPECT_EQ(services[1].outcome, ServiceEnd::forwarded);
+  EXPECT_EQ(services[2].outcome, ServiceEnd::delivered);
+  EXPECT_EQ(bed.channel.statistics().stations[0].dropped, 1U);
+  EXPECT_EQ(bed.channel.statistics().dropped_downlink, 0U);
+  EXPECT_EQ(bed.channel.frames_inside(), 0U);
+}
+
 }  // namespace channel_test
 }  // namespace stormproof::live

@@ -57,6 +57,7 @@ std::optional<std::uint32_t> HalfDuplexChannel::request(Nanoseconds now, const F
   const std::uint32_t name = frames_.take();
   frames_[name] = frame;
   wait_for(Direction::uplink, name);
+  settle_drops();
   return name;
 }
 
@@ -107,7 +108,7 @@ void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t name) {
     waiting_.push(static_cast<std::uint32_t>(direction), {now_, request, name, 0});
   } else {
     const Frame& frame = frames_[name];
-    const model::Frame asked{request, name, 0, bytes_on_air(frame)};
+    const model::Frame asked{request, name, 0, bytes_on_air(frame), now_};
     if (direction == Direction::uplink) {
       units_->request_uplink(frame.station, asked, frame.flow);
     } else {
@@ -119,12 +120,27 @@ void HalfDuplexChannel::wait_for(Direction direction, std::uint32_t name) {
   step<fsm::channel::ServiceRequested>();
 }
 
+/// What the queues of the profile have dropped is over.
+void HalfDuplexChannel::settle_drops() {
+  if (!units_) return;
+  while (const auto dropped = units_->next_dropped()) {
+    const std::uint32_t name = dropped->frame.slot;
+    const Frame& frame = frames_[name];
+    const bool is_down = dropped->access_point.has_value();
+    --(is_down ? downlink_queue_ : station_queue_[frame.station]);
+    ++(is_down ? statistics_.dropped_downlink : statistics_.stations[frame.station].dropped);
+    ended_.push_back({name, frame.station, is_down ? Direction::downlink : Direction::uplink, now_,
+                      now_, ServiceEnd::dropped, frame.receiver});
+  }
+}
+
 void HalfDuplexChannel::serve() {
   serving_ = units_ ? choose_unit() : choose_frame();
   for (const std::uint32_t name : serving_->frames) {
     --(serving_->direction == Direction::uplink ? station_queue_[frames_[name].station]
                                                 : downlink_queue_);
   }
+  settle_drops();
 }
 
 HalfDuplexChannel::InService HalfDuplexChannel::choose_frame() {
@@ -137,7 +153,7 @@ HalfDuplexChannel::InService HalfDuplexChannel::choose_frame() {
 }
 
 HalfDuplexChannel::InService HalfDuplexChannel::choose_unit() {
-  const model::Unit unit = units_->take();
+  const model::Unit unit = units_->take(now_);
   InService chosen{{},
                    unit.downlink ? Direction::downlink : Direction::uplink,
                    now_,
@@ -164,6 +180,7 @@ void HalfDuplexChannel::finish() {
     ended_.push_back({name, frame.station, served.direction, served.start, served.end, outcome,
                       frame.cast == Cast::multicast ? std::nullopt : frame.receiver});
   }
+  settle_drops();
   step<fsm::channel::EffectsDone>();
 }
 

@@ -60,7 +60,7 @@ struct Frame {
 /// What became of a frame at the end of a service.
 enum class ServiceEnd : std::uint8_t {
   forwarded,  ///< uplink: it waits for its downlink
-  dropped,    ///< uplink: the queue of the downlink was full
+  dropped,    ///< by a queue, as the profile says; uplink also: that of the downlink was full
   delivered,  ///< downlink
   lost        ///< downlink
 };
@@ -148,6 +148,7 @@ class HalfDuplexChannel {
     return frame.bytes - ethernet_header_bytes + link_overhead_bytes_;
   }
   void wait_for(Direction direction, std::uint32_t frame);
+  void settle_drops();
   [[nodiscard]] ServiceEnd after_uplink(std::uint32_t frame);
   [[nodiscard]] ServiceEnd after_downlink();
 

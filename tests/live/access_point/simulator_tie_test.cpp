@@ -67,6 +67,7 @@ std::vector<model::Service> served_again(const RunLog& run, const Scenario& simu
   channel.advance(Nanoseconds{std::int64_t{1} << 60U});
   std::vector<model::Service> services;
   for (const Service& service : channel.take_services()) {
+    if (service.outcome == ServiceEnd::dropped) continue;
     const Origin& origin = origins[service.frame];
     services.push_back({service.start.count(), service.end.count(), 0,
                         static_cast<std::uint32_t>(service.direction), origin.fragment,
@@ -174,6 +175,24 @@ TEST(AccessPointTie, Flows) {
   model::WirelessProfile fifo = simulated.wireless;
   fifo.queueing = model::Queueing::fifo;
   EXPECT_LT(agreeing(run, served_again(run, simulated, fifo)), run.services.size());
+}
+
+TEST(AccessPointTie, QueuesThatDrop) {
+  for (const std::string queue :
+       {"queue: {discipline: tail_drop, max_frames: 100}", "queue: {discipline: codel}",
+        "queueing: flows, queue: {discipline: fq_codel, max_frames: 300, of: access_points}"}) {
+    SCOPED_TRACE(queue);
+    const Scenario simulated =
+        scenario(five_by_twenty, "fastdds-2.6.11",
+                 "{base: wifi-80211n-ampdu, sender: backlog, source_queue_bytes: unlimited, "
+                 "aggregation: {max_frames: 2}, " +
+                     queue + "}");
+    expect_tie(simulated, 1'000);
+    const RunLog run = run_and_log(simulated);
+    model::WirelessProfile unlimited = simulated.wireless;
+    unlimited.queue.reset();
+    EXPECT_LT(agreeing(run, served_again(run, simulated, unlimited)), run.services.size());
+  }
 }
 
 TEST(AccessPointTie, OneNanosecondOrAnotherOrderIsSeen) {
