@@ -68,6 +68,28 @@ TEST(CycloneDds, IsNotSpokenOfByPropertiesOfOtherWriters) {
   }
 }
 
+/// What is proved of channels that lose nothing says nothing of queues that drop; what a run shows,
+/// it still shows.
+TEST(Queues, ThatDropLeaveWhatRunsShow) {
+  model::Scenario scenario;
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  scenario.wireless.service = model::ServedBy::unit;
+  scenario.wireless.queue.emplace();
+  const auto names_queue = [](std::string_view why) {
+    return why.find("wireless.queue") != std::string_view::npos;
+  };
+  EXPECT_FALSE(names_queue(applicability_of("live.completion", scenario).why_not)) << "unlimited";
+  scenario.wireless.queue = model::QueueManagement{.discipline = model::QueueDiscipline::codel};
+  for (const char* const property :
+       {"live.completion", "live.no-stall", "storm.cannot-start", "safety.conservation"}) {
+    EXPECT_TRUE(names_queue(applicability_of(property, scenario).why_not)) << property;
+  }
+  const Applicability observed = applicability_of("safety.ack-implies-received", scenario);
+  EXPECT_EQ(observed.why_not, "");
+  EXPECT_TRUE(names_queue(observed.why_not_provable)) << observed.why_not_provable;
+  EXPECT_TRUE(is_watched(scenario, "composition.followed"));
+}
+
 TEST(Lookups, ThatAreFilteredAreNotFollowedWhereSendersStall) {
   model::Scenario scenario;
   scenario.dds.implementation = model::ImplementationKind::fastdds;
