@@ -89,6 +89,7 @@ class LivingHost
       this->run_.missing += is_known ? 1U : 0U;
       this->run_.missing -= this->value(known, pair) ? 1U : 0U;
     }
+    if (!is_known && this->value(known, pair) && counts(ends)) ++this->run_.forgotten;
     Below::assign(known, pair, is_known);
   }
 
@@ -163,6 +164,15 @@ class LivingHost
     this->state(part, n) = fsm::Stepper<typename P::Machine>::initial;
   }
 
+  /// Whether it counts that the pair's destination forgets its source: who comes back now has lost
+  /// all that it had, and a Discovery Server is none of the participants.
+  [[nodiscard]] bool counts(const Pair& ends) const {
+    const std::uint32_t server = this->run_.scenario.deployment.size();
+    if (ends.source >= server || ends.destination >= server) return false;
+    return std::ranges::none_of(life_.restarts, [&](const Restart& restart) {
+      return restart.participant == ends.destination && restart.start == this->run_.now;
+    });
+  }
   /// Whether discovery waits for it.
   [[nodiscard]] bool waits_for(std::uint32_t participant) const {
     return !is_replaced(life_, participant) && !dying_[participant];

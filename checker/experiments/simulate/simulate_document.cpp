@@ -54,7 +54,7 @@ std::string recovery_text(const Simulation& s) {
   }
   std::string text = fmt::format("The last failure is over at {}, and recovery from it takes {}. ",
                                  last, duration(*s.result.recovery_time));
-  if (s.result.until_discovery && model::traits_of(s.scenario.dds).says_goodbye) {
+  if (s.result.until_discovery && model::traits_of(s.scenario.dds).has_living_composition) {
     const model::SentUntil& sent = *s.result.until_discovery;
     text += fmt::format("Until then {} messages are sent from that failure on, {} in all; ",
                         grouped(sent.since_last_failure), grouped(sent.messages()));

@@ -116,6 +116,17 @@ TEST(FastDdsOutage, OfOneDirectionIsForgottenByOneSide) {
   EXPECT_EQ(complete_at_us(two("fastdds-2.6.11", {life(cut)})), 42'570'610);
   EXPECT_EQ(complete_at_us(two("fastdds-2.14.5", {life(cut)})), 42'680'500);
 }
+/// Ordered pairs of which one forgot the other, as under Cyclone DDS.
+TEST(FastDdsOutage, SaysHowManyForget) {
+  const auto forgotten = [](const std::string& what) {
+    return simulate(two("fastdds-2.6.11", {life(what)})).until_discovery.value().forgotten;
+  };
+  EXPECT_EQ(forgotten(both_ways), 2U);
+  EXPECT_EQ(forgotten("outages: [" + one_way + "]"), 1U);
+  // Who comes back has lost all that it had, and forgets nobody.
+  EXPECT_EQ(forgotten("restarts: [{participant: 1, stop: 5s, start: 6s}]"), 0U);
+  EXPECT_EQ(forgotten("restarts: [{participant: 1, stop: 5s, start: 6s, identity: new}]"), 1U);
+}
 TEST(FastDdsOutage, OfFifteenSecondsCostsNothing) {
   const std::string cut =
       "outages: [{from: 0, to: 1, start: 9900ms, end: 24900ms}, {from: 1, to: 0, start: 9900ms, "
