@@ -11,6 +11,7 @@
 #include "checker/evidence/coverage/process_profiles.hpp"
 #include "checker/experiments/statistics/quantiles.hpp"
 #include "checker/experiments/trials/usual_hosts.hpp"
+#include "model/config/knobs/numeric_knobs.hpp"
 #include "model/config/scenario_file.hpp"
 #include "model/config/tree/yaml_text.hpp"
 #include "model/fastdds/endpoints.hpp"
@@ -122,12 +123,12 @@ model::config::Result<model::Scenario> with_channel(model::Scenario scenario,
 std::vector<Configuration> configurations(const std::vector<Observation>& rows) {
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::string, Channel,
                          std::optional<std::uint32_t>, Spread, std::optional<std::uint32_t>, bool,
-                         std::vector<std::string>>;
+                         std::vector<std::string>, Change>;
   std::map<Key, Configuration> found;
   for (const Observation& run : rows) {
-    Configuration& c =
-        found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set, run.channel,
-                  run.peer_range, run.spread, run.unknown_types, run.looks_up_types, run.profiles}];
+    Configuration& c = found[Key{run.participants_per_host, run.endpoints, run.hosts, run.set,
+                                 run.channel, run.peer_range, run.spread, run.unknown_types,
+                                 run.looks_up_types, run.profiles, run.change}];
     c.set = run.set;
     c.hosts = run.hosts;
     c.participants_per_host = run.participants_per_host;
@@ -137,6 +138,7 @@ std::vector<Configuration> configurations(const std::vector<Observation>& rows) 
     c.unknown_types = run.unknown_types;
     c.looks_up_types = run.looks_up_types;
     c.spread = run.spread;
+    c.change = run.change;
     c.profiles = run.profiles;
     c.runs.push_back(run);
   }
@@ -195,7 +197,8 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
   const model::Writer usual = model::Writer::stateful;
   auto scenario = read(schedule_text(schedule_ranges(configuration, usual)));
   if (!scenario) return scenario.error();
-  if (configuration.spread.step_ms > 0 && trials::lacks_hosts(*scenario)) {
+  const bool takes_time = configuration.spread.step_ms > 0 && !configuration.change.happens();
+  if (takes_time && trials::lacks_hosts(*scenario)) {
     overrides = trials::with_usual_hosts(std::move(overrides));
     scenario = read(schedule_text(schedule_ranges(configuration, usual)));
     if (!scenario) return scenario.error();
@@ -223,11 +226,17 @@ model::config::Result<model::Scenario> scenario_of(const Configuration& configur
     scenario->time_limit = nanoseconds(*limit);
   }
   if (auto error = give_profiles(configuration, options, *scenario)) return *std::move(error);
+  put(configuration.change, configuration.participants_per_host, *scenario);
   if (options.channel == ChannelSource::profile) return scenario;
   return with_channel(std::move(*scenario), configuration.channel);
 }
 
-std::string mismatch(const Configuration& configuration, const model::Scenario& scenario) {
+std::string mismatch(const Configuration& configuration, const model::Scenario& scenario,
+                     bool by_channel) {
+  if (configuration.change.happens() && !model::config::is_valid(scenario)) {
+    return configuration.change.outage ? "an outage" : "a process that goes";
+  }
+  if (!by_channel) return "";
   const Channel& row = configuration.channel;
   const model::WirelessProfile& profile = scenario.wireless;
   if (row.medium && row.wired() != (profile.kind == model::ServiceKind::constant_delay)) {

@@ -12,7 +12,8 @@
 
 namespace stormproof::prediction {
 
-/// All runs of one set with the same numbers, the same channel and the same spread of starts.
+/// All runs of one set with the same numbers, the same channel, the same spread of starts and the
+/// same happening to them.
 struct Configuration {
   std::string set;
   std::uint32_t hosts = 0;
@@ -23,12 +24,13 @@ struct Configuration {
   std::optional<std::uint32_t> unknown_types = {};  ///< as in `Observation`
   bool looks_up_types = true;
   Spread spread = {};
+  Change change = {};
   std::vector<std::string> profiles;  ///< as in `Observation`
   std::vector<Observation> runs;
 
   [[nodiscard]] bool same_deployment(const Configuration& other) const {
     return hosts == other.hosts && participants_per_host == other.participants_per_host &&
-           endpoints == other.endpoints && spread == other.spread;
+           endpoints == other.endpoints && spread == other.spread && change == other.change;
   }
   /// The limit of runs that did not complete, the longest of them, in ms; nothing if all did, or
   /// no limit is known.
@@ -76,8 +78,9 @@ struct ScenarioOptions {
                                                                  const ScenarioOptions& options);
 
 /// In what the configuration differs from the scenario that should predict it ("loss 0.05", say);
-/// empty if in nothing.
+/// empty if in nothing. The channel counts if asked for; what happens in it always has to be known
+/// to the rules.
 [[nodiscard]] std::string mismatch(const Configuration& configuration,
-                                   const model::Scenario& scenario);
+                                   const model::Scenario& scenario, bool by_channel = true);
 
 }  // namespace stormproof::prediction

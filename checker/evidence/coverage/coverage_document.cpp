@@ -1,5 +1,6 @@
 // The comparison for people: a section for each profile, in it a table for each scope and the
 // charts.
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -32,45 +33,55 @@ std::string label(Measure measure) {
   return measure == Measure::messages ? "all messages" : words_of(measure);
 }
 
-Table fit_table(const FitRow& first) {
-  const Fit& fit = first.fit;
-  return {{{""},
-           {"O ≤ M", to_the_right},
-           {"covered M/O [IQR]", to_the_right},
-           {"M/O", to_the_right},
-           {"|ln M/O|", to_the_right},
-           {"MAPE", to_the_right},
-           {"in range", to_the_right},
-           {"10/50/90 %", to_the_right}},
-          {},
-          fmt::format("{}: {}, {}, {}", first.scope,
-                      report::plural(fit.configurations, "configuration"),
-                      report::plural(fit.runs, "measured run"),
-                      report::plural(fit.model_runs, "model run"))};
+/// Whether something happened in measured runs that say their own start times.
+bool is_changed(const ProfileStudy& profile) {
+  return std::ranges::any_of(profile.rows,
+                             [](const FitRow& row) { return row.fit.near.has_value(); });
 }
 
-Table::Row fit_row(const FitRow& row) {
+Table fit_table(const FitRow& first, bool is_changed) {
+  const Fit& fit = first.fit;
+  Table table{{{""},
+               {"O ≤ M", to_the_right},
+               {"covered M/O [IQR]", to_the_right},
+               {"M/O", to_the_right},
+               {"|ln M/O|", to_the_right},
+               {"MAPE", to_the_right},
+               {"in range", to_the_right},
+               {"10/50/90 %", to_the_right}},
+              {},
+              fmt::format("{}: {}, {}, {}", first.scope,
+                          report::plural(fit.configurations, "configuration"),
+                          report::plural(fit.runs, "measured run"),
+                          report::plural(fit.model_runs, "model run"))};
+  if (is_changed) table.columns.push_back({"near", to_the_right});
+  return table;
+}
+
+Table::Row fit_row(const FitRow& row, bool is_changed) {
   const Fit& f = row.fit;
-  return {{label(row.measure), percent(f.coverage),
-           f.covered_median ? fmt::format("{} [{}, {}]", plain(f.covered_median),
-                                          plain(f.covered_q1), plain(f.covered_q3))
-                            : "–",
-           plain(f.median_ratio, 3), plain(f.median_abs_ln_ratio, 3),
-           f.mean_absolute_percent ? plain(f.mean_absolute_percent, 0) + " %" : "–",
-           percent(f.in_range),
-           fmt::format("{:.0f}/{:.0f}/{:.0f} %", 100 * f.calibration[0], 100 * f.calibration[4],
-                       100 * f.calibration[8])}};
+  Table::Row cells{{label(row.measure), percent(f.coverage),
+                    f.covered_median ? fmt::format("{} [{}, {}]", plain(f.covered_median),
+                                                   plain(f.covered_q1), plain(f.covered_q3))
+                                     : "–",
+                    plain(f.median_ratio, 3), plain(f.median_abs_ln_ratio, 3),
+                    f.mean_absolute_percent ? plain(f.mean_absolute_percent, 0) + " %" : "–",
+                    percent(f.in_range),
+                    fmt::format("{:.0f}/{:.0f}/{:.0f} %", 100 * f.calibration[0],
+                                100 * f.calibration[4], 100 * f.calibration[8])}};
+  if (is_changed) cells.cells.emplace_back(f.near ? percent(*f.near) : "–");
+  return cells;
 }
 
 void add_fits(report::Blocks& blocks, const ProfileStudy& profile) {
   for (std::size_t k = 0; k < profile.rows.size();) {
     const FitRow& first = profile.rows[k];
-    Table table = fit_table(first);
+    Table table = fit_table(first, is_changed(profile));
     std::size_t incomplete = 0;
     std::size_t incomplete_model = 0;
     for (; k < profile.rows.size() && profile.rows[k].scope == first.scope; ++k) {
       const FitRow& row = profile.rows[k];
-      table.rows.push_back(fit_row(row));
+      table.rows.push_back(fit_row(row, is_changed(profile)));
       if (row.measure != Measure::spdp_unicast) continue;
       incomplete = row.fit.incomplete_runs;
       incomplete_model = row.fit.incomplete_model_runs;
@@ -169,7 +180,7 @@ Table summary(const Study& study) {
               {}};
   for (const ProfileStudy& profile : study.profiles) {
     std::string name = profile.name;
-    for (const Measure measure : {Measure::completion, Measure::messages}) {
+    for (const Measure measure : {Measure::completion, Measure::messages, Measure::recovery}) {
       const Fit* const fit = overall(profile, measure);
       if (fit == nullptr) continue;
       table.rows.push_back(

@@ -49,6 +49,7 @@ void describe(V& v, const OfProfile<FitRow>& one) {
   v("median_abs_ln_ratio", fit.median_abs_ln_ratio);
   v("mape", fit.mean_absolute_percent);
   v("mape_configurations", fit.percent_configurations);
+  v.unless_empty("near", fit.near);
   v("in_range", fit.in_range);
   v("calibration", calibration);
 }
@@ -69,8 +70,13 @@ namespace {
 
 /// By measure; completion in ns.
 void add_median(std::map<std::string, double>& medians, Measure measure, double median) {
-  const bool is_time = measure == Measure::completion;
-  medians[is_time ? "t_disc_ns" : name_of(measure)] = is_time ? std::round(median * 1e6) : median;
+  if (measure == Measure::completion) {
+    medians["t_disc_ns"] = std::round(median * 1e6);
+  } else if (measure == Measure::recovery) {
+    medians["recovery_ns"] = std::round(median * 1e6);
+  } else {
+    medians[name_of(measure)] = median;
+  }
 }
 
 }  // namespace
@@ -84,7 +90,8 @@ void describe(V& v, const Pairing& pairing) {
     const auto measure = static_cast<Measure>(m);
     const std::vector<double> runs = observed_values(measured, measure);
     if (!runs.empty()) add_median(observed, measure, quantile(runs, 0.5));
-    add_median(predicted, measure, quantile(pairing.predicted->values[m], 0.5));
+    const std::vector<double>& model = pairing.predicted->values[m];
+    if (!model.empty()) add_median(predicted, measure, quantile(model, 0.5));
   }
   v("set", measured.set);
   v("N_H", measured.hosts);

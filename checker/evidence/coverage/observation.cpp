@@ -8,13 +8,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "checker/evidence/coverage/row.hpp"
 #include "model/deployment.hpp"
 
 namespace stormproof::prediction {
 
 namespace {
-
-using Json = nlohmann::json;
 
 /// Every class has its short name of the measurements and its name in the reports of this program.
 struct ClassName {
@@ -26,76 +25,6 @@ constexpr ClassName class_names[] = {
     {Measure::initial_data, "init"},     {Measure::repair_data, "repair"},
     {Measure::heartbeat, "hb"},          {Measure::acknack, "ack"},
     {Measure::messages, "total"}};
-
-/// Reads the fields of one row and remembers the first mistake.
-class Row {
- public:
-  explicit Row(const Json& json) : json_{json} {}
-
-  [[nodiscard]] const std::string& error() const { return error_; }
-
-  void fail(const std::string& field, const std::string& expected) {
-    if (!error_.empty()) return;
-    const auto found = json_.find(field);
-    const std::string value = found == json_.end() ? "is missing" : "is " + found->dump();
-    error_ = fmt::format("{} {}; expected {}", field, value, expected);
-  }
-
-  [[nodiscard]] bool has(const char* field) const {
-    const auto found = json_.find(field);
-    return found != json_.end() && !found->is_null();
-  }
-
-  [[nodiscard]] std::optional<double> number(const char* field, double least, double greatest,
-                                             const char* expected) {
-    if (!has(field)) return std::nullopt;
-    const Json& value = json_[field];
-    if (!value.is_number() || value.get<double>() < least || value.get<double>() > greatest) {
-      fail(field, expected);
-      return std::nullopt;
-    }
-    return value.get<double>();
-  }
-
-  [[nodiscard]] std::uint32_t count(const char* field, std::uint32_t least,
-                                    std::uint32_t greatest) {
-    const Json* value = has(field) ? &json_[field] : nullptr;
-    if (value == nullptr || !value->is_number_integer() || value->get<double>() < least ||
-        value->get<double>() > greatest) {
-      fail(field, fmt::format("an integer from {} to {}", least, greatest));
-      return least;
-    }
-    return value->get<std::uint32_t>();
-  }
-
-  [[nodiscard]] std::optional<std::string> text(const char* field) {
-    if (!has(field)) return std::nullopt;
-    if (json_[field].is_string()) return json_[field].get<std::string>();
-    fail(field, "a string");
-    return std::nullopt;
-  }
-
-  [[nodiscard]] std::optional<Range> range(const char* field) {
-    if (!has(field)) return std::nullopt;
-    const Json& value = json_[field];
-    const auto valid = [](const Json& end) {
-      return end.is_number() && end.get<double>() >= 0 && end.get<double>() <= max_ms;
-    };
-    if (!value.is_array() || value.size() != 2 || !valid(value[0]) || !valid(value[1]) ||
-        value[0].get<double>() > value[1].get<double>()) {
-      fail(field, "[earliest, latest], two ascending times in ms from 0 to 3600000");
-      return std::nullopt;
-    }
-    return Range{value[0].get<double>(), value[1].get<double>()};
-  }
-
-  static constexpr double max_ms = 3'600'000;
-  static constexpr double max_messages = 1e12;
-
- private:
-  const Json& json_;
-  std::string error_;
-};
 
 /// Until the completion that is compared. What a row counts apart until the strict one, if that is
 /// later, may be a part of the classes.
@@ -144,6 +73,15 @@ void read_completion(const Json& json, Row& row, const ReadOptions& options, Obs
       run.completed ? time : limit.value_or(0) * 1000;
 }
 
+/// A process that comes in the place of one that is gone says when it came; the one before it took
+/// as long to announce itself and to have its endpoints, from the common start on.
+void put_in_place(Times& times, Departure& gone) {
+  if (times.start < gone.at) return;
+  gone.back = times.start;
+  times.start -= gone.planned_return;
+  times.endpoints_done -= gone.planned_return;
+}
+
 /// When each of its processes announced itself and had its endpoints. When the first and the last
 /// one did the former is taken from here only if the row does not say it.
 void read_processes(const Json& json, Row& row, Observation& run) {
@@ -164,10 +102,13 @@ void read_processes(const Json& json, Row& row, Observation& run) {
       const std::uint64_t id =
           fields.has("id") ? fields.count("id", 0, run.participants_per_host - 1) : next;
       if (id >= run.participants_per_host) continue;  // more than there should be
-      known[host * run.participants_per_host + id] = {*enabled, *done};
+      Times& times = known[host * run.participants_per_host + id];
+      times = {*enabled, *done};
+      auto& gone = run.change.departure;
+      if (gone && gone->host == host && gone->id == id) put_in_place(times, *gone);
     }
     if (!fields.error().empty()) return row.fail("procs", "in it: " + fields.error());
-    if (!enabled) continue;
+    if (!enabled || (run.change.departure && *enabled >= run.change.departure->at)) continue;
     const Range all = starts.value_or(Range{*enabled, *enabled});
     starts = Range{std::min(all.low, *enabled), std::max(all.high, *enabled)};
   }
@@ -248,8 +189,10 @@ Observation read_row(const Json& json, Row& row, const ReadOptions& options) {
   run.create = row.range("create_ms");
   run.endpoints_done = row.range("ep_done_ms");
   read_spread(row, run.spread);
+  read_change(row, run);
   read_processes(json, row, run);
   read_profiles(json, row, run);
+  if (run.change.departure) run.create = run.endpoints_done = std::nullopt;  // of the new one, too
   return run;
 }
 

@@ -9,20 +9,16 @@
 #include <string>
 #include <vector>
 
+#include "checker/evidence/coverage/change.hpp"
 #include "checker/experiments/statistics/measure.hpp"
 #include "model/config/tree/result.hpp"
 
 namespace stormproof::prediction {
 
-/// What is compared: the completion time (ms), all messages, and each class of messages.
+/// What is compared: the completion time (ms), all messages, and each class of messages; and of
+/// runs in which something happened, what came of it.
 using statistics::Measure;
-inline constexpr std::size_t measure_count = statistics::discovery_measure_count;
-
-/// Earliest and latest of one run's participants, in ms since the common start.
-struct Range {
-  double low = 0;
-  double high = 0;
-};
+inline constexpr std::size_t measure_count = statistics::measure_count;
 
 /// When one participant announced itself and had all its endpoints, in ms since the common start.
 struct Times {
@@ -69,6 +65,7 @@ struct Observation {
   std::optional<std::uint32_t> unknown_types;
   bool looks_up_types = true;  ///< type_propagation is absent or `enabled`
   Spread spread;
+  Change change;
   bool completed = true;
   /// By measure; of a run that did not complete these are lower bounds, the time limit for
   /// `completion`.

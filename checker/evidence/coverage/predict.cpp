@@ -17,22 +17,41 @@ struct Job {
   std::size_t sample = 0;
 };
 
-using Values = std::array<double, measure_count>;
+using Values = MeasureValues;
 
-Values values_of(const model::RunResult& run, bool held) {
-  Values values;
-  values.fill(statistics::unreached);
-  if (!run.completed() && !held) return values;
-  const auto put = [&values](Measure measure, double value) {
+/// What a discovery took and sent; of one that is held its counts, too, if it is not complete.
+void add_discovery(const std::optional<model::Nanoseconds>& time, const model::Counts& sent,
+                   bool held, Values& values) {
+  const auto put = [&](Measure measure, double value) {
     values[static_cast<std::size_t>(measure)] = value;
   };
-  if (run.completed()) {
-    put(Measure::completion, static_cast<double>(run.discovery_time->count()) / 1e6);
-  }
-  put(Measure::messages, static_cast<double>(run.counts.total()));
+  const bool counts = time || held;
+  put(Measure::completion, time ? static_cast<double>(time->count()) / 1e6 : statistics::unreached);
+  put(Measure::messages, counts ? static_cast<double>(sent.total()) : statistics::unreached);
   for (const model::MessageClass one : model::message_classes) {
-    put(statistics::measure_of(one), static_cast<double>(run.counts[one]));
+    put(statistics::measure_of(one),
+        counts ? static_cast<double>(sent[one]) : statistics::unreached);
   }
+}
+
+std::optional<Values> values_of_changed(trials::Runner& runner, const Case& one,
+                                        const model::Scenario& scenario) {
+  const auto run = run_changed(runner, one.change, scenario);
+  if (!run) return std::nullopt;
+  Values values;
+  add_discovery(run->first_completion(one.change), run->sent_at_first(one.change), one.held,
+                values);
+  add_values(one.change, *run, values);
+  return values;
+}
+
+std::optional<Values> values_of(trials::Runner& runner, const Case& one,
+                                const model::Scenario& scenario) {
+  if (one.change.happens()) return values_of_changed(runner, one, scenario);
+  const auto run = runner.simulate(scenario);
+  if (!run) return std::nullopt;
+  Values values;
+  add_discovery(run->discovery_time, run->counts, one.held, values);
   return values;
 }
 
@@ -57,9 +76,7 @@ Predictions predict(std::span<const Case> cases, const PredictOptions& options) 
     model::Scenario scenario = trials::under_seed(one.scenario, seed);
     one.starts.put(scenario.deployment, jobs[k].sample, seed);
     if (one.loss > 0) scenario.wireless.lost_packets = trials::draw_losses(one.loss, seed);
-    const auto run = runner.simulate(scenario);
-    if (!run) return std::nullopt;
-    return values_of(*run, one.held);
+    return values_of(runner, one, scenario);
   });
   Predictions predictions;
   predictions.finished = !runner.stopped();
@@ -68,9 +85,10 @@ Predictions predict(std::span<const Case> cases, const PredictOptions& options) 
     if (!results[k]) continue;
     Prediction& prediction = predictions.cases[jobs[k].of_case];
     for (std::size_t m = 0; m < measure_count; ++m) {
-      prediction.values[m].push_back((*results[k])[m]);
+      if ((*results[k])[m]) prediction.values[m].push_back(*(*results[k])[m]);
     }
-    if (std::isinf((*results[k])[0])) ++prediction.incomplete;
+    if (std::isinf(*(*results[k])[0])) ++prediction.incomplete;
+    prediction.own = cases[jobs[k].of_case].starts.measured();
   }
   return predictions;
 }

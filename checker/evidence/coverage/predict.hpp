@@ -20,6 +20,7 @@ struct Case {
   double loss = 0;         ///< probability of each packet, drawn anew in each sample
   StartTimes starts = {};  ///< after the schedule of the scenario was drawn
   bool held = false;  ///< the scenario's limit is one of measured runs, whose counts end there, too
+  Change change = {};  ///< what happens in it
 
   /// Whether samples differ; otherwise one run is enough.
   [[nodiscard]] bool sampled() const {
@@ -34,6 +35,8 @@ struct Prediction {
   /// only its time does.
   std::array<std::vector<double>, measure_count> values;
   std::size_t incomplete = 0;
+  /// So many first runs have the start times of the measured ones, in their order.
+  std::size_t own = 0;
 };
 
 struct PredictOptions {

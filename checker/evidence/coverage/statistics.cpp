@@ -48,8 +48,8 @@ class Collection {
   void add(const Pairing& pairing) {
     const std::vector<double> observed =
         observed_values(*pairing.observed, static_cast<Measure>(measure_));
-    if (observed.empty()) return;
     const std::vector<double> model = sorted(pairing.predicted->values[measure_]);
+    if (observed.empty() || model.empty()) return;
     const double prediction = quantile(model, 0.5);
     ++fit_.configurations;
     fit_.model_runs += model.size();
@@ -57,6 +57,7 @@ class Collection {
     const std::optional<double> limit = is_completion() ? pairing.observed->limit() : std::nullopt;
     add_configuration(prediction, quantile(observed, 0.5), limit.value_or(unreached));
     add_runs(observed, model, prediction);
+    add_own(pairing, observed);
     const bool is_held = pairing.observed->limit().has_value() && !is_completion();
     for (const Observation& run : pairing.observed->runs) {
       if (run.completed || !run.values[measure_]) continue;
@@ -69,6 +70,7 @@ class Collection {
     if (fit_.runs == 0) return std::nullopt;
     fit_.coverage = share(fit_.coverage, fit_.runs);
     fit_.in_range = share(fit_.in_range, fit_.runs);
+    if (own_runs_ > 0) fit_.near = share(static_cast<double>(near_), own_runs_);
     for (double& below : fit_.calibration) below = share(below, fit_.runs);
     fit_.covered_q1 = finite_quantile(covered_, 0.25);
     fit_.covered_median = finite_quantile(covered_, 0.5);
@@ -117,6 +119,19 @@ class Collection {
     }
   }
 
+  /// Each measured run beside the one of the model that starts as it did.
+  void add_own(const Pairing& pairing, const std::vector<double>& observed) {
+    const std::vector<double>& model = pairing.predicted->values[measure_];
+    if (measure_ < statistics::common_measure_count) return;
+    if (pairing.predicted->own != observed.size() || model.size() < observed.size()) return;
+    own_runs_ += observed.size();
+    for (std::size_t k = 0; k < observed.size(); ++k) {
+      if (is_near(static_cast<Measure>(measure_), model[k], observed[k])) ++near_;
+    }
+  }
+
+  std::size_t own_runs_ = 0;
+  std::size_t near_ = 0;
   std::size_t measure_;
   Fit fit_;  ///< until `finish`, shares are sums
   std::vector<double> covered_;

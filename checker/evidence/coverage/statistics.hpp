@@ -54,6 +54,9 @@ struct Fit {
   std::optional<double> mean_absolute_percent;  ///< over configurations, of 100 |M − O|/O
   std::size_t percent_configurations = 0;       ///< those for which it is finite
 
+  /// Of what came of a change: share of the measured runs near which the model's comes that has
+  /// their own start times (`is_near`), if all of them say these.
+  std::optional<double> near;
   double in_range = 0;  ///< share of measured runs between the least and the greatest model run
   /// Share of measured runs that are at most quantile 0.1, 0.2 … 0.9 of the model runs.
   std::array<double, calibration_points> calibration{};

@@ -33,7 +33,7 @@ std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
     auto scenario = scenario_of(configuration, options);
     if (!scenario) return scenario.error();
     const bool own_channel = options.channel == ChannelSource::row;
-    const std::string difference = own_channel || foreign ? "" : mismatch(configuration, *scenario);
+    const std::string difference = mismatch(configuration, *scenario, !own_channel && !foreign);
     if (!difference.empty()) {
       profile.skipped[difference] += configuration.runs.size();
       continue;
@@ -42,7 +42,8 @@ std::optional<InputError> add_cases(const std::vector<Configuration>& measured,
     Case next{std::move(*scenario),
               own_channel ? configuration.channel.loss.value_or(0) : 0,
               {},
-              configuration.limit().has_value()};
+              configuration.limit().has_value(),
+              configuration.change};
     next.starts = start_times(configuration, next.scenario, options);
     profile.sampled = profile.sampled || next.sampled();
     profile.measured_starts += next.starts.measured();

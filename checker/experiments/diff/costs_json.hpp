@@ -131,7 +131,7 @@ void describe(V& v, const CostComparison& costs) {
 /// Each measure is there, by its name.
 inline Configuration example_of(report::Type<Configuration>) {
   Configuration configuration;
-  for (std::size_t k = 0; k < measure_count; ++k) {
+  for (std::size_t k = 0; k < common_measure_count; ++k) {
     configuration.measures[k].measure = static_cast<Measure>(k);
   }
   return configuration;

@@ -91,8 +91,8 @@ struct VerdictComparison {
 
 // --- the costs over a grid ----------------------------------------------------------------------
 
+using statistics::common_measure_count;
 using statistics::Measure;
-using statistics::measure_count;
 /// "ns", "packets", …; empty for counts and ratios.
 [[nodiscard]] const char* unit_of(Measure measure);
 
@@ -127,7 +127,7 @@ struct Configuration {
   std::uint32_t hosts = 0, participants = 0;
   std::uint64_t descriptors = 0;  ///< to be delivered across hosts: the load
   std::size_t samples = 0;        ///< of each side
-  std::array<MeasuredChange, measure_count> measures;
+  std::array<MeasuredChange, common_measure_count> measures;
   std::vector<LimitCrossing> crossings;
   /// Every pair of runs had the same result, in every number that a run has: times, counts, number
   /// of events, delays.

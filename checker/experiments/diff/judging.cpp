@@ -159,7 +159,7 @@ Configuration CostJudge::judge(const ReviewedPoint& point, const PairedRuns& run
   configuration.descriptors = load_of(point);
   configuration.samples = runs.size();
   configuration.identical_runs = runs.identical;
-  for (std::size_t k = 0; k < measure_count; ++k) {
+  for (std::size_t k = 0; k < common_measure_count; ++k) {
     configuration.measures[k] = change(static_cast<Measure>(k), runs, exact);
   }
   configuration.crossings = crossings(point, runs, exact);

@@ -16,7 +16,7 @@ namespace stormproof::diff {
 
 /// The values of one run, by `Measure`. The completion of a run that does not complete is infinite;
 /// its other values are those of the run as far as it went.
-using RunValues = std::array<double, measure_count>;
+using RunValues = std::array<double, common_measure_count>;
 
 /// Pairs of runs of one deployment: run k of both sides has the k-th schedule.
 struct PairedRuns {

@@ -108,7 +108,7 @@ class PolicyReader {
       return fail(*map, "tolerances", "a map of measures to shares, such as {completion: 25 %}");
     }
     std::vector<std::string> known;
-    for (std::size_t k = 0; k < measure_count; ++k) {
+    for (std::size_t k = 0; k < common_measure_count; ++k) {
       known.emplace_back(name_of(static_cast<Measure>(k)));
     }
     policy_.tolerances.clear();

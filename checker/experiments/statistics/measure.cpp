@@ -6,10 +6,12 @@ namespace stormproof::statistics {
 namespace {
 
 constexpr std::array<const char*, 2> first_names{"completion", "messages"};
-constexpr std::array<const char*, 4> last_names{"user_control", "lookup", "amplification",
-                                                "backlog"};
-constexpr std::array<const char*, 4> last_words{"user control", "lookups", "amplification",
-                                                "highest backlog"};
+constexpr std::array<const char*, 9> last_names{
+    "user_control", "lookup",          "amplification",   "backlog",       "recovery",
+    "lost_pairs",   "messages_before", "messages_during", "messages_after"};
+constexpr std::array<const char*, 9> last_words{
+    "user control", "lookups",         "amplification",   "highest backlog",        "recovery",
+    "lost pairs",   "messages before", "messages during", "messages until recovery"};
 
 bool is_class(Measure measure) {
   return index_of(measure) >= 2 && index_of(measure) < discovery_measure_count;

@@ -22,9 +22,17 @@ enum class Measure : std::uint8_t {
   user_control,   ///< messages of control-only relations, in no class
   lookup,         ///< questions and answers about types, in no class
   amplification,  ///< messages over those of the failure-free reference
-  backlog         ///< packets, highest of any participant
+  backlog,        ///< packets, highest of any participant
+  // Of what happens to participants (`deployment.life`).
+  recovery,         ///< from the end of the last outage, or from when somebody went
+  lost_pairs,       ///< ordered pairs of which one forgot the other
+  messages_before,  ///< of all six classes until the failure begins
+  messages_during,  ///< until it is over
+  messages_after    ///< from then on until all is recovered
 };
-inline constexpr std::size_t measure_count = 12;
+inline constexpr std::size_t measure_count = 17;
+/// Those that a run has whatever happens in it come first.
+inline constexpr std::size_t common_measure_count = 12;
 /// Those that a measured discovery has, too: completion, messages and the classes come first.
 inline constexpr std::size_t discovery_measure_count = 2 + model::message_class_count;
 

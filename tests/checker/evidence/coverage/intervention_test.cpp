@@ -80,7 +80,7 @@ TEST(LiveRuns, ArePredictedWithinTheStatedError) {
   const auto result = study(rows, {}, request);
   ASSERT_TRUE(result);
   const std::vector<FitRow>& fits = result->profiles[0].rows;
-  ASSERT_EQ(fits.size(), measure_count);
+  ASSERT_EQ(fits.size(), statistics::discovery_measure_count);
   EXPECT_LE(fits[0].fit.median_abs_ln_ratio, 0.15);  // completion
   EXPECT_LE(fits[1].fit.median_abs_ln_ratio, 0.2);   // all messages
 }

@@ -51,7 +51,7 @@ diff::Configuration configuration(const std::string& endpoints, std::uint64_t de
   one.participants = 10;
   one.descriptors = descriptors;
   one.samples = 12;
-  for (std::size_t k = 0; k < diff::measure_count; ++k) {
+  for (std::size_t k = 0; k < diff::common_measure_count; ++k) {
     diff::MeasuredChange& change = one.measures[k];
     change.measure = static_cast<diff::Measure>(k);
     const double before = k == 0 ? 2e9 : 1000.0 + 100.0 * static_cast<double>(k);
