@@ -11,6 +11,7 @@ void declare_commands(Frame& frame) {
   declare_diff(frame);
   declare_compare_discovery(frame);
   declare_launch(frame);
+  declare_survive(frame);
   declare_fuzz(frame);
   declare_sensitivity(frame);
   declare_sweep(frame);

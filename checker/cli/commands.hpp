@@ -11,6 +11,7 @@ void declare_check(Frame& frame);
 void declare_diff(Frame& frame);
 void declare_compare_discovery(Frame& frame);
 void declare_launch(Frame& frame);
+void declare_survive(Frame& frame);
 void declare_fix(Frame& frame);
 void declare_fuzz(Frame& frame);
 void declare_sensitivity(Frame& frame);

@@ -127,6 +127,7 @@ const std::array cases{
 TEST_F(Interrupt, AStudyKeepsToItsTime) {
   const Words studies[] = {{"compare-discovery", "wifi-5x20-fastdds", "--samples", "10000"},
                            {"launch", "fleet-4x2x20", "--samples", "10000"},
+                           {"survive", "live-5x20", "--samples", "10000"},
                            {"sensitivity", "live-5x20"},
                            {"sweep", "big.yaml", "-o", "runs.db"},
                            {"fix", "fleet-4x2x20", "--samples", "100000"}};

@@ -57,6 +57,9 @@ const Case cases[] = {
      "launch \"$S\" --set dds=fastdds-2.6.11 --limit 3s --step 20ms --step 50ms --samples 2 --seed "
      "4 "
      "--start-jitter 5ms --join"},
+    {"survive",
+     "survive \"$S\" --set dds=fastdds-2.6.11 --versions fastdds-2.14.5 --length 1s --length 30s "
+     "--limit 3s --samples 2 --seed 4"},
     {"fix",
      "fix \"$S\" --set dds=fastdds-2.6.11 --set 'limits={completion: 1ms}' --keep vendor --keep "
      "settings --samples 2 --seed 4 --start-jitter 5ms --export \"it's\""},

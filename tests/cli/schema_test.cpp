@@ -34,7 +34,7 @@ const char* const verbs[] = {"simulate",     "check",
                              "list",         "doctor",
                              "watch",        "compare-discovery",
                              "museum",       "launch",
-                             "fix"};
+                             "fix",          "survive"};
 
 std::string output_of(const std::string& arguments) {
   return stormproof::files::output_of(STORMPROOF_PROGRAM " " + arguments);
