@@ -29,6 +29,20 @@ void add_of_cyclone(const model::DdsProfile& dds, std::vector<Cure>& cures) {
   }
 }
 
+/// Where everybody learns everybody again at once, 2.6 to 2.10 storm as at the start, or worse.
+void add_of_fastdds(const model::DdsProfile& dds, std::vector<Cure>& cures) {
+  constexpr model::Bytes large{4'000'000};
+  if (dds.sedp.piggyback_threshold_bytes < large) {
+    cures.push_back({"sendBufferSize 4 MB",
+                     {"dds.sedp.piggyback_threshold_bytes=4000000"},
+                     "HEARTBEATs ride on fewer packets; live, rediscovery storms with the default "
+                     "and not with this"});
+  }
+  cures.push_back({"Fast DDS 2.14.5",
+                   {"dds=fastdds-2.14.5"},
+                   "longer delays (#5540) and fewer announcements; live, it does not storm"});
+}
+
 void add_of_server(const model::DdsProfile& dds, std::vector<Cure>& cures) {
   if (dds.server.rejoin != model::Rejoin::known) {
     cures.push_back({"a server with #5780",
@@ -45,6 +59,8 @@ std::vector<Cure> cures_for(const model::Scenario& scenario) {
   const model::ImplementationTraits& traits = traits_of(dds);
   std::vector<Cure> cures;
   if (traits.says_goodbye) add_of_cyclone(dds, cures);
+  const bool is_simple = dds.discovery == model::Discovery::simple;
+  if (traits.vendor == model::vendor::fastdds && is_simple) add_of_fastdds(dds, cures);
   if (!traits.has_server) return cures;
   add_of_server(dds, cures);
   cures.push_back({"Fast DDS 3.6",

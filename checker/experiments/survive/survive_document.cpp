@@ -156,6 +156,11 @@ void add_assumptions(report::Document& document, const Report& report, const Req
   document.assumptions.emplace_back(
       fmt::format("Not survived means: not within {} after the failure and a lease.",
                   report::duration(request.limit)));
+  if (model::traits_of(report.versions.front().scenario.dds).vendor == model::vendor::fastdds) {
+    document.assumptions.emplace_back(
+        "Programs take no time, so where everybody is learned again at once and that storms, it "
+        "takes up to twice as long here as in live runs (specs/guide/coverage.md).");
+  }
   if (report.without_processors) {
     document.assumptions.emplace_back(
         "Programs take no time and no sender waits for a full queue: rules of failures know "
