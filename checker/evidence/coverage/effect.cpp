@@ -86,8 +86,9 @@ std::optional<Effect> effect(const std::vector<Contrast>& contrasts, const std::
   const auto m = static_cast<std::size_t>(measure);
   for (const Contrast& contrast : contrasts) {
     if (!in_scope(*contrast.changed.observed, scope)) continue;
-    predicted.push_back(
-        {contrast.changed.predicted->values[m], contrast.baseline.predicted->values[m]});
+    Samples model{contrast.changed.predicted->values[m], contrast.baseline.predicted->values[m]};
+    if (model.changed.empty() || model.baseline.empty()) continue;  // runs do not have it
+    predicted.push_back(std::move(model));
     if (!measured) continue;
     Samples runs{observed_values(*contrast.changed.observed, measure),
                  observed_values(*contrast.baseline.observed, measure)};
