@@ -29,8 +29,19 @@ struct Participant {
   std::optional<Nanoseconds> ready = {};
   /// Its own profile, of the implementation of the scenario's; absent: it has that one.
   Shared<DdsProfile> dds = {};
+  /// Which Discovery Servers of the deployment's list it is a client of; empty: of all.
+  std::vector<std::uint64_t> servers = {};
 
   bool operator==(const Participant&) const = default;
+};
+
+/// A Discovery Server (`discovery: server` and `super_client`): one more that takes part, numbered
+/// after all participants, without endpoints, from time 0 on (model/servers.hpp).
+struct DiscoveryServer {
+  HostId host;
+  std::vector<std::uint64_t> servers = {};  ///< of the same list, those that it looks for
+
+  bool operator==(const DiscoveryServer&) const = default;
 };
 
 /// Ranges from which the start times of a deployment are drawn. Real processes never start at
@@ -166,6 +177,7 @@ struct Deployment {
   /// (model/host.hpp).
   std::vector<Host> hosts = {};
   std::vector<AccessPoint> access_points = {};  ///< of the hosts; empty: one
+  std::vector<DiscoveryServer> servers = {};    ///< empty: one on host 0, if there is any
   /// Between a wired host and the distribution system, each way, ≥ 1.
   std::optional<Nanoseconds> wired_delay = {};
   /// `wired_delay`, or half of what two hosts of the profile `wired` have between them.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "model/implementations.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model {
 
@@ -27,7 +28,7 @@ bool is_replaced(const Life& life, std::uint32_t participant) {
 }
 
 std::vector<bool> those_who_die(const Scenario& scenario) {
-  std::vector<bool> dying(scenario.deployment.size() + 1);
+  std::vector<bool> dying(scenario.deployment.size() + server_count(scenario.deployment));
   if (!scenario.deployment.life || !traits_of(scenario.dds).has_living_composition) return dying;
   const Life& life = *scenario.deployment.life;
   for (const Mute& mute : life.mute) dying[mute.participant] = true;
@@ -40,12 +41,13 @@ std::vector<bool> those_who_die(const Scenario& scenario) {
 
 HostId host_of(const Deployment& deployment, std::uint32_t participant) {
   const auto& all = deployment.participants;
-  return participant < all.size() ? all[participant].host : HostId{};
+  if (participant < all.size()) return all[participant].host;
+  return host_of_server(deployment, participant - deployment.size());
 }
 
 bool checks_lease(const Scenario& scenario, std::uint32_t i, std::uint32_t j) {
-  const std::uint32_t server = scenario.deployment.size();
-  return !traits_of(scenario.dds).has_server || i == server || j == server;
+  const std::uint32_t first_server = scenario.deployment.size();
+  return !traits_of(scenario.dds).has_server || i >= first_server || j >= first_server;
 }
 
 bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j, Nanoseconds emitted,
@@ -177,10 +179,10 @@ std::uint32_t successors_of(const Deployment& deployment) {
       std::ranges::count(deployment.life->restarts, Identity::fresh, &Restart::identity));
 }
 
-/// A Discovery Server is the one after all others.
-void renumber_server(Life& life, std::uint32_t before, std::uint32_t after) {
+/// Discovery Servers are those after all others.
+void renumber_servers(Life& life, std::uint32_t first, std::uint32_t further) {
   const auto renumber = [&](std::uint32_t& participant) {
-    if (participant == before) participant = after;
+    if (participant >= first) participant += further;
   };
   for (Mute& mute : life.mute) renumber(mute.participant);
   for (Lease& lease : life.leases) renumber(lease.participant);
@@ -196,7 +198,7 @@ void renumber_server(Life& life, std::uint32_t before, std::uint32_t after) {
 Deployment with_successors(const Deployment& deployment) {
   Deployment all = deployment;
   if (!has_successors(deployment)) return all;
-  renumber_server(*all.life, deployment.size(), deployment.size() + successors_of(deployment));
+  renumber_servers(*all.life, deployment.size(), successors_of(deployment));
   for (const Restart& restart : deployment.life->restarts) {
     if (restart.identity != Identity::fresh) continue;
     Participant successor = deployment.participants[restart.participant];

@@ -21,8 +21,7 @@ namespace stormproof::model {
 /// between them.
 [[nodiscard]] bool hears(const Deployment& deployment, std::uint32_t i, std::uint32_t j,
                          Nanoseconds emitted, Nanoseconds now);
-/// The host of a participant; a Discovery Server, which is one more than the deployment has, is on
-/// the first one.
+/// The host of a participant, which may be a Discovery Server.
 [[nodiscard]] HostId host_of(const Deployment& deployment, std::uint32_t participant);
 /// Whether j forgets i once i's lease is over. With a Discovery Server that looks after its
 /// clients' leases and they after its, and of each other they hear from the server.

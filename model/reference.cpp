@@ -9,6 +9,7 @@
 #include "model/fastdds/endpoints.hpp"
 #include "model/implementations.hpp"
 #include "model/packet_sizes.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model {
 
@@ -74,29 +75,39 @@ void add_spdp(Counts& counts, SpdpResend resend, std::uint64_t recognitions, std
   }
 }
 
-/// With a server everything goes to it once, and once from it to each who needs it; a super client
-/// needs what all others have.
+/// With servers everything goes to each server of a participant once, and once from that to each
+/// other client of it who needs it; a super client needs what all others have.
 Counts reference_with_server(const Scenario& scenario) {
   const Topology topology = topology_of(scenario);
-  const std::uint32_t server = topology.participant_count() - 1;
+  const Deployment& deployment = scenario.deployment;
   const bool super = scenario.dds.discovery == Discovery::super_client;
   const auto descriptors = [&](std::uint32_t i) {
     return topology.descriptor_count(i, Stream::pub) + topology.descriptor_count(i, Stream::sub);
   };
+  std::vector<std::vector<std::uint32_t>> clients(topology.server_count());
+  for (std::uint32_t i = 0; i < deployment.size(); ++i) {
+    for (const std::uint32_t server : servers_of(deployment, i)) {
+      clients[server - topology.first_server()].push_back(i);
+    }
+  }
   Counts counts;
-  for (std::uint32_t j = 0; j < server; ++j) {
-    if (!topology.pair(topology.pair_between(j, server)).cross_host) continue;
+  const auto add = [&](std::uint32_t server, std::uint32_t j) {
+    if (!topology.pair(topology.pair_between(j, server)).cross_host) return;
+    const auto& all = clients[server - topology.first_server()];
     counts.initial_data += descriptors(j);
     counts.heartbeat += 4;  // two streams there, two back
     counts.acknack += 4;
-    counts.pdp_data += 1 + server;  // its own; the server's, and those of all others
+    counts.pdp_data += 1 + all.size();  // its own; the server's, and those of all others
     counts.pdp_heartbeat += 2;
     counts.pdp_acknack += 2;
-    for (std::uint32_t i = 0; i < server; ++i) {
+    for (const std::uint32_t i : all) {
       if (i == j) continue;
       counts.initial_data +=
           super ? descriptors(i) : topology.matching_descriptors(i, j, scenario.dds.descriptors);
     }
+  };
+  for (std::uint32_t j = 0; j < deployment.size(); ++j) {
+    for (const std::uint32_t server : servers_of(deployment, j)) add(server, j);
   }
   return counts;
 }

@@ -35,15 +35,22 @@ void relay_heartbeat(W& w) {
 struct ClientAnnounces : Rule<Due<ClientAnnouncement>> {
   template <class W>
   static void run(W& w) {
-    const auto first = !(w(AnnouncementsSent{}) > 0);
     const auto timer =
         w.feed(AnnouncementTimer{}, on<announcer::AnnouncementDue>, announcer_input(w));
     w.set(AnnouncementsSent{}, w(AnnouncementsSent{}) + 1);
     w.when(timer.announce, [&] {
-      w.when(first, [&] { begin(w); });
-      w.when(!first, [&] { w.emit(Registration{}, says()); });
+      w.perform(ToEachServer{});
       w.at(timer.next_at, ClientAnnouncement{});
     });
+  }
+};
+/// To one server of those that it has. The first time it begins to look for it.
+struct AnnouncesToServer : Rule<Happens<Announces>> {
+  template <class W>
+  static void run(W& w) {
+    const auto first = !(w(AnnouncementsSent{}) > 1);
+    w.when(first, [&] { begin(w); });
+    w.when(!first, [&] { w.emit(Registration{}, says()); });
   }
 
  private:
@@ -62,10 +69,35 @@ struct ClientAnnounces : Rule<Due<ClientAnnouncement>> {
   }
 };
 
-/// Only here does a client that knows the server match its endpoints with the server's.
+/// Only here does a client that knows the server match its endpoints with the server's. A server
+/// that looks for another one announces itself to it until it knows it.
 struct ClientSyncIsDue : Rule<Due<ClientSync>> {
   template <class W>
   static void run(W& w) {
+    const auto from_server = w(FromServer{});
+    w.when(from_server, [&] { look_for_server(w); });
+    w.when(!from_server, [&] { match(w); });
+  }
+
+ private:
+  template <class W>
+  static void look_for_server(W& w) {
+    w.reverse([](auto& back) {
+      back.when(!back(Recognised{}), [&] {
+        back.for_streams([](auto& r) {
+          r.when(r(OfAnnouncements{}) && !r(LearnerOpen{}), [&] { r.raise(LearnerOpens{}); });
+        });
+        back.reverse([](auto& self) {
+          self.for_streams([](auto& r) {
+            r.when(r(OfAnnouncements{}), [&] { r.emit(RelayedData{}, says()); });
+          });
+          self.after(RoutinePeriod{}, ClientSync{});
+        });
+      });
+    });
+  }
+  template <class W>
+  static void match(W& w) {
     w.reverse([](auto& back) {
       const auto known = back(Recognised{});
       back.when(!known, [&] {
@@ -161,13 +193,16 @@ struct LearnerRules {
   struct RelayedDataArrives : Rule<Received<RelayedData>> {
     template <class W>
     static void run(W& w) {
-      w.when(w(KnownByLocator{}) && w(TellsOfServer{}) && !w(LearnerOpen{}), [&] {
+      const auto to_server = w(ToServer{});
+      const auto of_server = w(TellsOfServer{});
+      w.when(w(KnownByLocator{}) && of_server && !to_server && !w(LearnerOpen{}), [&] {
         w.raise(LearnerOpens{});
         w.reverse([](auto& client) {
           client.emit(RegistrationHeartbeat{}, says());
           arm_registration(client);
         });
       });
+      w.when(to_server && of_server && !w(Recognised{}), [&] { w.perform(MeetServer{}); });
       w.call(TakePacket{});
     }
   };
@@ -204,6 +239,13 @@ struct WakeRoutine : Procedure {
   }
 };
 
+struct OpenBuiltin : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.when(w(CrossHost{}) || w(lookup::LooksUpTypes{}), [&] { w.perform(OpenBuiltinSides{}); });
+  }
+};
+
 /// The first one of a client; later ones renew a lease, which is not modelled. Who knows the server
 /// by its locator is answered at once.
 struct RegistrationArrives : Rule<Received<Registration>> {
@@ -235,14 +277,20 @@ struct RegistrationArrives : Rule<Received<Registration>> {
       });
     });
   }
+};
 
- private:
-  struct OpenBuiltin : Procedure {
-    template <class W>
-    static void body(W& w) {
-      w.when(w(CrossHost{}) || w(lookup::LooksUpTypes{}), [&] { w.perform(OpenBuiltinSides{}); });
-    }
-  };
+/// The pair's destination takes its source for a client that learns everything, and reads what that
+/// has.
+struct ServersMeet : Rule<Happens<Meets>> {
+  template <class W>
+  static void run(W& w) {
+    w.set(Recognised{}, typename W::Bool(true));
+    w.perform(JoinParticipants{});
+    w.for_streams([](auto& r) { r.when(!r(LearnerOpen{}), [&] { r.raise(LearnerOpens{}); }); });
+    w.reverse([](auto& back) { back.for_streams([](auto& r) { r.raise(RelayOpens{}); }); });
+    w.call(OpenBuiltin{});
+    w.reverse([](auto& back) { back.call(WakeRoutine{}); });
+  }
 };
 
 struct RegistrationHeartbeatArrives : Rule<Received<RegistrationHeartbeat>> {
@@ -435,12 +483,12 @@ struct FastDdsServer {
                          LearnerHeartbeatSeen, LearnerLastDelay, RelayOpen>;
   using Packets = TypeList<Registration, RegistrationHeartbeat, RegistrationAckNack, RelayedData,
                            RelayHeartbeat, Gap, RelayedAckNack>;
-  using Occasions =
-      TypeList<RelayOpens, LearnerOpens, Arrives, Inserted, Skipped, Served, Delivered>;
+  using Occasions = TypeList<Announces, Meets, RelayOpens, LearnerOpens, Arrives, Inserted, Skipped,
+                             Served, Delivered>;
   using Announcing =
-      TypeList<ClientAnnounces, ClientSyncIsDue, RegistrationAckNackArrives, RegistrationExpires,
-               RegistrationArrives, RegistrationHeartbeatArrives, RegistrationReplyIsDue,
-               RegistrationInitialDue>;
+      TypeList<ClientAnnounces, AnnouncesToServer, ClientSyncIsDue, ServersMeet,
+               RegistrationAckNackArrives, RegistrationExpires, RegistrationArrives,
+               RegistrationHeartbeatArrives, RegistrationReplyIsDue, RegistrationInitialDue>;
   using Learning = Joined<TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue>,
                           LearnerRules<HeedsAll>::Rules, TypeList<DescriptorsArrive>>;
   using Relaying = TypeList<RelayOpened, ChangeIsInserted, ThreadSends, ChangesAreSkipped,

@@ -16,8 +16,6 @@
 
 namespace stormproof::fsm::composition::server {
 
-/// The destination of the pair is the server.
-struct ToServer : Answer {};
 /// The pair's destination is in the server's database, and is not gone.
 struct IsInDatabase : Answer {};
 
@@ -186,12 +184,42 @@ struct CloseClient : Procedure {
   }
 };
 
-/// The server forgets a client, and tells the others. Since 3.0 it announces itself as at its
-/// start.
-struct LoseClient : Procedure {
+/// A reader of a relay has heard of nothing.
+struct CloseLearners : Procedure {
+  template <class W>
+  static void body(W& w) {
+    w.for_streams([](auto& r) {
+      r.set(LearnerOpen{}, typename W::Bool(false));
+      r.set(LearnerHeartbeatSeen{}, typename W::Bool(false));
+      r.renew(LearnerTimer{});
+      r.renew(LearnerReply{});
+      r.cancel(LearnerAttempt{});
+      r.cancel(LearnerReplyDue{});
+      r.perform(ForgetRelayed{});
+    });
+  }
+};
+/// What the server has of another one closes. It looks for it again if it did at its start.
+struct CloseServer : Procedure {
   template <class W>
   static void body(W& w) {
     w.call(CloseClient{});
+    w.call(CloseLearners{});
+    w.reverse([](auto& back) {
+      back.cancel(ClientSync{});
+      back.when(back(Seeks{}), [&] { back.after(RoutinePeriod{}, ClientSync{}); });
+    });
+  }
+};
+
+/// The server forgets a client or another server, and tells the others. Since 3.0 it announces
+/// itself as at its start.
+struct LoseClient : Procedure {
+  template <class W>
+  static void body(W& w) {
+    const auto from_server = w(FromServer{});
+    w.when(from_server, [&] { w.call(CloseServer{}); });
+    w.when(!from_server, [&] { w.call(CloseClient{}); });
     w.perform(JoinGoodbyes{});
     w.reverse([](auto& back) {
       back.when(back(KnownByLocator{}), [&] {
@@ -210,15 +238,7 @@ struct LoseServer : Procedure {
   template <class W>
   static void body(W& w) {
     w.perform(ForgetExchange{});
-    w.for_streams([](auto& r) {
-      r.set(LearnerOpen{}, typename W::Bool(false));
-      r.set(LearnerHeartbeatSeen{}, typename W::Bool(false));
-      r.renew(LearnerTimer{});
-      r.renew(LearnerReply{});
-      r.cancel(LearnerAttempt{});
-      r.cancel(LearnerReplyDue{});
-      r.perform(ForgetRelayed{});
-    });
+    w.call(CloseLearners{});
     const auto by_locator = w(KnownByLocator{});
     w.when(!by_locator, [&] {
       w.for_streams(
@@ -267,13 +287,17 @@ void lose_relay(W& w) {
   w.cancel(RelayResponseDue{});
 }
 /// The server has nothing of its clients, nothing in its database and its relays, and numbers all
-/// that it says from 1 on. A host closes all clients, whether they are known or not, before it
-/// comes to the relays.
+/// that it says from 1 on. A host closes all clients and other servers, whether they are known or
+/// not, before it comes to the relays.
 struct LoseDatabase : Opaque {
   template <class W>
   static void contract(W& w) {
     w.for_known_peers([](auto& peer) {
-      peer.reverse([](auto& back) { back.call(CloseClient{}); });
+      peer.reverse([](auto& back) {
+        const auto from_server = back(FromServer{});
+        back.when(from_server, [&] { back.call(CloseServer{}); });
+        back.when(!from_server, [&] { back.call(CloseClient{}); });
+      });
       peer.for_streams([](auto& r) { lose_relay(r); });
     });
   }
@@ -302,9 +326,10 @@ struct FastDdsServerLiving {
   using State = Joined<FastDdsServer::State, TypeList<ForgottenAt, LeaseRuns, RegistrationHeard>>;
   using Packets = FastDdsServer::Packets;
   using Occasions = Joined<FastDdsServer::Occasions, TypeList<Needless>>;
-  using Announcing = TypeList<ClientAnnounces, ClientSyncIsDue, HeardRegistrationAckNack,
-                              RegistrationExpires, HeardRegistration, HeardRegistrationHeartbeat,
-                              RegistrationReplyIsDue, RegistrationInitialDue, ServerAnnounces>;
+  using Announcing = TypeList<ClientAnnounces, AnnouncesToServer, ClientSyncIsDue, ServersMeet,
+                              HeardRegistrationAckNack, RegistrationExpires, HeardRegistration,
+                              HeardRegistrationHeartbeat, RegistrationReplyIsDue,
+                              RegistrationInitialDue, ServerAnnounces>;
   using Learning = TypeList<LearnerOpened, LearnerInitialDue, LearnerReplyIsDue, HeardRelayedData,
                             HeardRelayHeartbeat, HeardGap, DescriptorsArrive>;
   using Relaying = TypeList<RelayOpened, ChangeIsInserted, ChangeIsNeedless, ThreadSends,

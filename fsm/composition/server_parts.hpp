@@ -2,7 +2,9 @@
 // state, packets, what only a host knows, and the steps that are stated by their contracts. The
 // rules are in fsm/composition/server.hpp.
 //
-// The *server* is a participant; a *client*'s pair is (client, server). The server has three
+// A *server* is a participant; a *client*'s pair is (client, server); that of its announcements is
+// the one with the first of its servers. Of two servers that know each other each is a client of
+// the other, as far as it learns what the other has. A server has three
 // writers, `relays`: of announcements, of publications and of subscriptions; their relations are
 // those of (server, client), and what they carry are *changes*, numbered from 1.
 #pragma once
@@ -70,8 +72,13 @@ struct KnownByLocator : SwitchOf<"server_known", "locator"> {};
 
 /// The relay is that of announcements.
 struct OfAnnouncements : Answer {};
+/// The source of the pair is a server; its destination is.
+struct FromServer : Answer {};
+struct ToServer : Answer {};
+/// The pair's source, a server, looks for its destination.
+struct Seeks : Answer {};
 struct HistoryNotEmpty : Answer {};
-/// The DATA is the server's own announcement.
+/// The DATA is the own announcement of the server that sends it.
 struct TellsOfServer : Answer {};
 /// The reader has not acknowledged the first change that there is, or something is in U.
 struct LacksSomething : Answer {};
@@ -94,6 +101,8 @@ struct RelayHeartbeat : Packet<owner::relation, CarriesHeartbeat> {};
 struct Gap : Packet<owner::relation, CarriesHeartbeat> {};
 struct RelayedAckNack : Packet<owner::relation, IsInitial> {};
 
+struct Announces : Occasion<owner::pair> {};  ///< a client announces itself to a server of it
+struct Meets : Occasion<owner::pair> {};      ///< a server hears of another one for the first time
 struct RelayOpens : Occasion<owner::relation> {};
 struct LearnerOpens : Occasion<owner::relation> {};
 struct Arrives : Occasion<owner::participant> {};  ///< a descriptor that is new to the server
@@ -102,6 +111,20 @@ struct Skipped : Occasion<owner::relation> {};     ///< a reader is told what it
 struct Served : Occasion<owner::relation> {};      ///< a change is about to be sent to a reader
 struct Delivered : Occasion<owner::writer> {};     ///< a change has been sent to all
 
+/// The client announces itself to each server that it has, in their order.
+struct ToEachServer : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.raise(Announces{});
+  }
+};
+/// The pair's destination, a server, has heard of its source.
+struct MeetServer : Opaque {
+  template <class W>
+  static void contract(W& w) {
+    w.raise(Meets{});
+  }
+};
 /// The client waits for the routine.
 struct JoinParticipants : Opaque {
   template <class W>

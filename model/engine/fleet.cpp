@@ -3,14 +3,17 @@
 
 #include <algorithm>
 
+#include "model/life.hpp"
+#include "model/servers.hpp"
+
 namespace stormproof::model {
 
 Fleet::Fleet(const Scenario& scenario) : is_listed_{!scenario.deployment.hosts.empty()} {
   const Deployment& deployment = scenario.deployment;
   std::uint32_t most = 0;
-  for (const Participant& p : deployment.participants) {
-    hosts_.push_back(p.host.value);
-    most = std::max(most, p.host.value);
+  for (std::uint32_t i = 0; i < deployment.size() + server_count(deployment); ++i) {
+    hosts_.push_back(model::host_of(deployment, i).value);
+    most = std::max(most, hosts_.back());
   }
   take_access_points(deployment);
   for (const Host& host : deployment.hosts) take_host(deployment, host);

@@ -18,9 +18,9 @@ class Fleet {
   /// Whether the deployment lists its hosts.
   [[nodiscard]] bool is_listed() const { return is_listed_; }
   [[nodiscard]] std::uint32_t host_count() const { return static_cast<std::uint32_t>(all_.size()); }
-  /// Of the participant; a Discovery Server is on host 0.
+  /// Of the participant, which may be a Discovery Server.
   [[nodiscard]] std::uint32_t host_of(std::uint32_t participant) const {
-    return participant < hosts_.size() ? hosts_[participant] : 0;
+    return hosts_[participant];
   }
   [[nodiscard]] bool is_wired(std::uint32_t host) const { return all_[host].wired; }
   /// Of a station.
@@ -63,7 +63,7 @@ class Fleet {
   void take_host(const Deployment& deployment, const Host& host);
 
   bool is_listed_;
-  std::vector<std::uint32_t> hosts_;  // by participant
+  std::vector<std::uint32_t> hosts_;  // by participant, those of Discovery Servers behind them
   std::vector<One> all_;
   std::vector<std::uint32_t> radios_;  // by access point
   std::vector<Nanoseconds> group_interval_;

@@ -5,6 +5,7 @@
 
 #include "model/implementations.hpp"
 #include "model/life.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model {
 
@@ -19,10 +20,12 @@ Topology topology_of(const Scenario& scenario) {
 
 Topology::Topology(const Deployment& deployment, const DescriptorProfile& descriptors,
                    SameHostPairs same_host)
-    : participant_count_{deployment.size() + (same_host == SameHostPairs::with_server ? 1U : 0U)} {
+    : first_server_{deployment.size()},
+      participant_count_{first_server_ + (same_host == SameHostPairs::with_server
+                                              ? model::server_count(deployment)
+                                              : 0U)} {
   const auto& participants = deployment.participants;
-  const std::uint32_t server = deployment.size();
-  const auto host = [&](std::uint32_t i) { return i == server ? HostId{} : participants[i].host; };
+  const auto host = [&](std::uint32_t i) { return host_of(deployment, i); };
   first_pair_.assign(participant_count_ + 1, 0);
   for (std::uint32_t i = 0; i < participant_count_; ++i) {
     first_pair_[i] = pair_count();
@@ -32,7 +35,7 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
         pairs_.push_back({i, j, 0, cross_host});
       }
     }
-    if (i == server) {
+    if (is_server(i)) {
       descriptor_count_.insert(descriptor_count_.end(), {0, 0});
       start_.push_back({});
       late_publications_.push_back(0);
@@ -71,8 +74,7 @@ Topology::Topology(const Deployment& deployment, const DescriptorProfile& descri
 
 std::uint32_t Topology::matching_descriptors(std::uint32_t i, std::uint32_t j,
                                              const DescriptorProfile& defaults) const {
-  const std::uint32_t server = participant_count_ - 1;
-  if (i == server || j == server) return 0;
+  if (is_server(i) || is_server(j)) return 0;
   const auto user = [&](std::uint32_t k, Stream s) {
     return descriptor_count(k, s) -
            (s == Stream::pub ? defaults.default_publications : defaults.default_subscriptions);

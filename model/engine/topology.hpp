@@ -33,7 +33,11 @@ class Topology {
   Topology(const Deployment& deployment, const DescriptorProfile& descriptors,
            SameHostPairs same_host = SameHostPairs::left_out);
 
+  /// With Discovery Servers, which are the last ones.
   [[nodiscard]] std::uint32_t participant_count() const { return participant_count_; }
+  [[nodiscard]] bool is_server(std::uint32_t i) const { return i >= first_server_; }
+  [[nodiscard]] std::uint32_t first_server() const { return first_server_; }
+  [[nodiscard]] std::uint32_t server_count() const { return participant_count_ - first_server_; }
   [[nodiscard]] std::uint32_t pair_count() const {
     return static_cast<std::uint32_t>(pairs_.size());
   }
@@ -72,6 +76,7 @@ class Topology {
                                                    const DescriptorProfile& defaults) const;
 
  private:
+  std::uint32_t first_server_;  // one more than the last participant, if there is none
   std::uint32_t participant_count_;
   std::vector<Pair> pairs_;
   std::vector<std::uint32_t> first_pair_;

@@ -13,7 +13,6 @@ Stream other(Stream s) { return s == Stream::pub ? Stream::sub : Stream::pub; }
 
 ControlRelations::ControlRelations(const Topology& topology, const Scenario& scenario)
     : topology_{topology} {
-  const std::uint32_t participants = scenario.deployment.size();
   for (std::uint32_t pair = 0; pair < topology.pair_count(); ++pair) {
     first_relation_.push_back(count());
     const Pair& p = topology.pair(pair);
@@ -22,7 +21,7 @@ ControlRelations::ControlRelations(const Topology& topology, const Scenario& sce
     lookups_.push_back(static_cast<std::uint8_t>(ask ? topic::lookups.size() : 0));
     std::uint32_t relations = lookups_.back();
     if (p.cross_host) relations += 1;  // a Discovery Server has no topics
-    if (p.cross_host && p.source != participants && p.destination != participants) {
+    if (p.cross_host && !topology.is_server(p.source) && !topology.is_server(p.destination)) {
       relations +=
           topic::first_user - 1 +
           std::min(topology.descriptor_count(p.source, Stream::pub) - default_publications,

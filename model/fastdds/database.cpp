@@ -15,14 +15,18 @@ constexpr std::uint32_t own_subscriptions = default_subscriptions - 2;
 constexpr std::uint32_t rosout_publication = 1;
 }  // namespace
 
-Database::Database(const Topology& topology, Discovery discovery, const ServerProfile& server)
+Database::Database(const Topology& topology, std::uint32_t server, Discovery discovery,
+                   const ServerProfile& profile)
     : discovery_{discovery},
-      profile_{server},
-      server_{topology.participant_count() - 1},
+      profile_{profile},
+      server_{server},
+      first_server_{topology.first_server()},
+      participants_{topology.participant_count()},
       contents_(topology.participant_count()),
-      standing_(topology.participant_count()) {
-  for (std::uint32_t i = 0; i <= server_; ++i) contents_[i] = {i, true, {}, 0};
-  for (std::uint32_t i = 0; i < server_; ++i) {
+      standing_(topology.participant_count()),
+      is_direct_(topology.participant_count()) {
+  for (std::uint32_t i = 0; i < participants_; ++i) contents_[i] = {i, true, {}, 0};
+  for (std::uint32_t i = 0; i < topology.first_server(); ++i) {
     for (const Stream s : streams) {
       first_.push_back(static_cast<Item>(contents_.size()));
       const std::uint32_t count = topology.descriptor_count(i, s);
@@ -34,11 +38,14 @@ Database::Database(const Topology& topology, Discovery discovery, const ServerPr
       }
     }
   }
-  topics_.resize(shared_topics_ + 1 + server_ * (own_publications + own_subscriptions));
-  marked_.resize(contents_.size() * server_);
+  topics_.resize(shared_topics_ + 1 +
+                 topology.first_server() * (own_publications + own_subscriptions));
+  marked_.resize(contents_.size() * participants_);
   noted_.resize(marked_.size());
   waiting_.resize(marked_.size());
+  told_.resize(marked_.size());
   listed_.resize(contents_.size());
+  known_.resize(contents_.size());
 }
 
 /// Shared topics, then rosout, then those that only one participant has.
@@ -58,6 +65,20 @@ bool Database::relevant(Item item, std::uint32_t j) const {
   if (!marked_[at(item, j)] || noted_[at(item, j)]) return false;
   const std::size_t announced = at(announcement(c.participant), j);
   return c.is_announcement || (marked_[announced] && noted_[announced]);
+}
+
+bool Database::tell(Item item, std::uint32_t j) {
+  const bool before = told_[at(item, j)];
+  told_[at(item, j)] = true;
+  return !before;
+}
+
+void Database::tell_again(std::uint32_t i) {
+  for (Item item = 0; item < contents_.size(); ++item) {
+    told_[at(item, i)] = false;
+    if (contents_[item].participant != i) continue;
+    for (std::uint32_t j = 0; j < participants_; ++j) told_[at(item, j)] = false;
+  }
 }
 
 void Database::mark(Item item, std::uint32_t j) {
@@ -95,10 +116,20 @@ void Database::take_in(Lists& lists, std::uint32_t i) {
     if (profile_.rejoin == Rejoin::dropped) return;
     withdraw(lists, i);
   }
-  standing_[i] = Standing::there;
+  const bool was_there = std::exchange(standing_[i], Standing::there) == Standing::there;
+  if (was_there && !is_direct(i)) return;
   ++news_;
   all_noted = false;
-  if (discovery_ != Discovery::super_client) return;
+  if (!is_direct(i)) return;
+  if (discovery_ == Discovery::super_client || i >= first_server_) {
+    take_in_super_client(lists, i);
+  } else if (was_there) {
+    tell_what_matches(i);
+  }
+}
+
+/// It is told everything, and its own announcement is told to it again.
+void Database::take_in_super_client(Lists& lists, std::uint32_t i) {
   for (std::uint32_t topic = 0; topic < topics_.size(); ++topic) {
     const Topic& t = topics_[topic];
     for (const auto* items : {&t.publications, &t.subscriptions}) {
@@ -114,6 +145,49 @@ void Database::take_in(Lists& lists, std::uint32_t i) {
     listed_[own] = true;
     lists.announcements.insert(lists.announcements.begin(), own);
   }
+}
+
+/// Its descriptors were here before it was.
+void Database::tell_what_matches(std::uint32_t i) {
+  for (std::uint32_t topic = 0; topic < topics_.size(); ++topic) {
+    const Topic& t = topics_[topic];
+    const auto tell_opposites = [&](const auto& own, const auto& opposites) {
+      const auto is_own = [&](Item item) { return contents_[item].participant == i; };
+      if (std::ranges::none_of(own, is_own)) return;
+      for (const Item opposite : opposites) {
+        if (!is_own(opposite)) mark(opposite, i);
+      }
+      soil(topic);
+    };
+    tell_opposites(t.publications, t.subscriptions);
+    tell_opposites(t.subscriptions, t.publications);
+  }
+}
+
+void Database::leave(std::uint32_t i) {
+  is_direct_[i] = false;
+  waiting_ones_.push_back({i, true});
+  for (Item item = 0; item < contents_.size(); ++item) {
+    if (contents_[item].participant == i) known_[item] = false;
+  }
+}
+
+bool Database::arrive(Item item) {
+  if (known_[item]) return false;
+  known_[item] = true;
+  arrived_.push_back(item);
+  return true;
+}
+
+void Database::hear_of(std::uint32_t i, std::uint32_t other) {
+  has(other, announcement(i));
+  if (!is_direct(i)) waiting_ones_.push_back({i, false});
+}
+
+void Database::has(std::uint32_t other, Item item) {
+  mark(item, other);
+  noted_[at(item, other)] = true;
+  noted_[at(announcement(contents_[item].participant), other)] = true;
 }
 
 /// Its descriptors leave, nobody has to tell it anything any more, and its announcement becomes a
@@ -132,7 +206,7 @@ void Database::take_leave(Lists& lists, std::uint32_t i) {
     lists.leaving.push_back(item);
   }
   const Item own = announcement(i);
-  for (std::uint32_t j = 0; j < server_; ++j) {
+  for (std::uint32_t j = 0; j < participants_; ++j) {
     noted_[at(own, j)] = false;
     waiting_[at(own, j)] = false;
   }
@@ -157,7 +231,7 @@ void Database::clear(Item item, std::uint32_t j) {
   waiting_[at(item, j)] = false;
 }
 void Database::clear(Item item) {
-  for (std::uint32_t j = 0; j < server_; ++j) clear(item, j);
+  for (std::uint32_t j = 0; j < participants_; ++j) clear(item, j);
 }
 
 /// Those of somebody who is not in the database are dropped.
@@ -173,8 +247,8 @@ void Database::take_descriptors() {
     for (const Item opposite : publication ? t.subscriptions : t.publications) {
       const std::uint32_t j = contents_[opposite].participant;
       if (j == c.participant) continue;
-      mark(item, j);
-      mark(opposite, c.participant);
+      if (is_direct(j)) mark(item, j);
+      if (is_direct(c.participant)) mark(opposite, c.participant);
     }
     for (const std::uint32_t j : super_clients_) {
       if (j != c.participant) mark(item, j);

@@ -21,7 +21,9 @@ LivingServerProtocol::LivingServerProtocol(RunState& run, Network& network)
 
 void LivingServerProtocol::start() {
   ServerHost::start();
-  start_announcing(server_id());
+  for (Number k = 0; k < topology().server_count(); ++k) {
+    start_announcing(topology().first_server() + k);
+  }
 }
 
 void LivingServerProtocol::handle(const Event& event) {
@@ -37,18 +39,8 @@ void LivingServerProtocol::received(const Packet& packet, Number receiver) {
     ServerHost::received(packet, receiver);
 }
 
-/// What the server tells of a client that it has forgotten, and tells that, counts as new again.
 void LivingServerProtocol::forget_exchange(Number pair) {
   RunningWorld<LivingProtocol, comp::owner::pair>{*this, pair}.call(rules::Life::Forget{});
-  const Pair& ends = topology().pair(pair);
-  if (ends.destination != server_id()) return;
-  for (Number there = topology().first_pair(ends.source);
-       there < topology().first_pair(ends.source + 1); ++there) {
-    if (topology().pair(there).destination == server_id()) continue;
-    for (const Number relayed : {there, topology().pair(there).reverse}) {
-      for (const Number s : {0U, 1U}) changes().renew(2 * relayed + s, renewed);
-    }
-  }
 }
 
 /// A reader has lost all, or has these.

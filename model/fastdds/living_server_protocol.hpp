@@ -34,6 +34,7 @@ class LivingServerProtocol final
   // What steps ask of it.
   void forget_exchange(Number pair);
   void learn(Number client, const Relayed& relayed);
+  void take_descriptors(Number relation, const DescriptorSet& received) override;
 
  private:
   [[nodiscard]] bool is_required(const Pair& pair, Stream s, Number d) const override {
@@ -41,11 +42,12 @@ class LivingServerProtocol final
            ServerHost::is_required(pair, s, d);
   }
   void complete_acknack(Packet& acknack) override {
-    if (ends(acknack.relation()).destination != server_id()) return;
+    const Number server = ends(acknack.relation()).destination;
+    if (!topology().is_server(server)) return;
+    const bool of_publications = acknack.stream == Stream::pub;
     acknack.set_number_of_acknack(
-        next_acknack(acknack.stream == Stream::pub ? relay::publications : relay::subscriptions));
+        next_acknack(server, of_publications ? relay::publications : relay::subscriptions));
   }
-  void take_descriptors(Number relation, const DescriptorSet& received) override;
   void forget(Number pair);
 };
 

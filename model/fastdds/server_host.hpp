@@ -14,6 +14,7 @@
 #include "model/fastdds/protocol.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/fastdds/server_relays.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model::fastdds {
 
@@ -42,6 +43,11 @@ class ServerHost : public Stored<Self, Base, ThingsBeside<Composition_, Base>, C
 
   ServerHost(RunState& run, Network& network) : Below{run, network}, Steps{run} {}
 
+  void start() override {
+    Base::start();
+    Steps::for_those_who_seek(
+        [&](Number pair, std::int64_t at) { this->schedule(server::ClientSync{}, pair, at); });
+  }
   void handle(const Event& event) override {
     if (!run_due(this->self(), event)) Base::handle(event);
   }
@@ -75,6 +81,7 @@ class ServerHost : public Stored<Self, Base, ThingsBeside<Composition_, Base>, C
   }
   using Base::open_builtin;
   void learn(Number client, const Relayed& relayed);
+  void take_descriptors(Number relation, const DescriptorSet& received) override;
 
   // Packets.
   using Base::emit;
@@ -95,7 +102,8 @@ class ServerHost : public Stored<Self, Base, ThingsBeside<Composition_, Base>, C
   /// Whether discovery needs that the pair's destination learns the descriptor: it has the other
   /// side of its topic.
   [[nodiscard]] virtual bool is_required(const Pair& pair, Stream s, Number d) const {
-    if (pair.source == this->server_id() || pair.destination == this->server_id()) return false;
+    if (this->topology().is_server(pair.source) || this->topology().is_server(pair.destination))
+      return false;
     return has_other_side(this->topology(), pair.destination, s, d);
   }
   /// Clients are told one descriptor after the other, in no order.
@@ -103,19 +111,17 @@ class ServerHost : public Stored<Self, Base, ThingsBeside<Composition_, Base>, C
     const auto relation = static_cast<Number>(2 * pair + index_of(s));
     return (this->changes().received(relation, d / 64) >> d % 64 & 1) != 0;
   }
-  void take_descriptors(Number relation, const DescriptorSet& received) override;
 
  private:
   void begin_announcing(Number i) override {
-    this->schedule(server::ClientAnnouncement{},
-                   this->topology().pair_between(i, this->server_id()),
+    const Number first = servers_of(this->run_.scenario.deployment, i).front();
+    this->schedule(server::ClientAnnouncement{}, this->topology().pair_between(i, first),
                    this->topology().start(i).count());
   }
 
   // server_packets.hpp
   void send_registration(PacketKind kind, Number pair, bool initial);
   void send_acknack(Number relation, bool initial);
-  [[nodiscard]] bool is_first_for(Number client, const Relayed& data);
   void send_relayed(Number relation, Relayed relayed);
 };
 
@@ -174,16 +180,17 @@ std::vector<MissingDescriptor> ServerHost<Self, Base, Composition_, Columns>::mi
 template <class Self, class Base, class Composition_, class Columns>
 void ServerHost<Self, Base, Composition_, Columns>::take_descriptors(
     Number relation, const DescriptorSet& received) {
+  const Number server = this->ends(relation).destination;
   const DescriptorSet missing = this->changes().missing(relation);
   this->changes().receive(relation, received);
   bool some = false;
   missing.for_each([&](std::uint32_t d) {
     if ((this->changes().received(relation, d / 64) >> d % 64 & 1) == 0) return;
     --this->template at<Lacking>(relation);
-    this->arrive(this->ends(relation).source, this->stream_of(relation), d);
+    this->arrive(server, this->ends(relation).source, this->stream_of(relation), d);
     some = true;
   });
-  if (some) run<comp::Happens<server::Arrives>>(this->server_id());
+  if (some) run<comp::Happens<server::Arrives>>(server);
 }
 
 template <class Self, class Base, class Composition_, class Columns>

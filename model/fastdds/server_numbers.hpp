@@ -1,6 +1,7 @@
 // How what the rules of a Discovery Server are about is numbered (fsm/composition/server.hpp).
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "model/engine/columns.hpp"
@@ -8,9 +9,9 @@
 
 namespace stormproof::model::fastdds {
 
-/// Only the server and its pairs with clients have any of these, so there are rows for the clients
-/// and for the relays. Observers and the queue hear of the pair, or of the server, and of the
-/// relay.
+/// Only servers and their pairs with clients have any of these, so there are rows for each server,
+/// its relays and whoever may be a client of it. Observers and the queue hear of the pair, or of
+/// the server, and of the relay.
 struct ServerNumbers : PlainColumns {
   static constexpr bool is_relayed(comp::Owner owner) {
     return (owner.indices & comp::owner::stream_index) != 0;
@@ -19,12 +20,25 @@ struct ServerNumbers : PlainColumns {
   static std::uint32_t rows(const RunState& run) {
     const std::uint32_t relays = is_relayed(owner) ? relay::count : 1;
     const bool by_client = (owner.indices & comp::owner::peer_index) != 0;
-    return relays * (by_client ? run.scenario.deployment.size() : 1);
+    const std::uint32_t servers = run.topology.server_count();
+    return relays * servers * (by_client ? run.topology.participant_count() : 1);
   }
   static std::uint32_t row(comp::Owner owner, std::uint32_t n, const RunState& run) {
     const std::uint32_t relays = is_relayed(owner) ? relay::count : 1;
-    if ((owner.indices & comp::owner::peer_index) == 0) return n % relays;
-    return relays * client_of(n / relays, run) + n % relays;
+    if ((owner.indices & comp::owner::peer_index) == 0) {
+      const std::uint32_t first = run.topology.first_server();
+      return relays * (std::max(n / relays, first) - first) + n % relays;
+    }
+    return relays * row_of_pair(n / relays, run.topology) + n % relays;
+  }
+  /// Of the pair of a server and a client of it, in either direction.
+  static std::uint32_t row_of_pair(std::uint32_t pair, const Topology& topology) {
+    const Pair& ends = topology.pair(pair);
+    const bool from_server = topology.is_server(ends.source);
+    const std::uint32_t server = from_server ? ends.source : ends.destination;
+    const std::uint32_t client = from_server ? ends.destination : ends.source;
+    const std::uint32_t first = topology.first_server();  // only a mistake has two clients
+    return (std::max(server, first) - first) * topology.participant_count() + client;
   }
   static constexpr MachineRef::Kind kind(comp::Owner owner) {
     const bool of_pair = (owner.indices & comp::owner::peer_index) != 0;
@@ -38,11 +52,6 @@ struct ServerNumbers : PlainColumns {
   }
   static constexpr std::uint32_t number(comp::Owner owner, const Event& event) {
     return is_relayed(owner) ? relay::count * event.subject + event.detail : event.subject;
-  }
-  /// The client of a pair with the server.
-  static std::uint32_t client_of(std::uint32_t pair, const RunState& run) {
-    const Pair& p = run.topology.pair(pair);
-    return p.source == run.scenario.deployment.size() ? p.destination : p.source;
   }
 };
 

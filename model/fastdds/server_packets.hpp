@@ -32,7 +32,8 @@ void ServerHost<Self, Base, Composition_, Columns>::send_registration(PacketKind
   Packet packet = this->packet_of(kind, pair, bytes);
   packet.initial_acknack = initial;
   if (kind == PacketKind::registration_acknack)
-    packet.set_number_of_acknack(this->next_acknack(relay::announcements));
+    packet.set_number_of_acknack(
+        this->next_acknack(this->topology().pair(pair).destination, relay::announcements));
   this->send(std::move(packet));
 }
 
@@ -59,16 +60,6 @@ void ServerHost<Self, Base, Composition_, Columns>::send_acknack(Number relation
   this->send(std::move(packet));
 }
 
-/// Whether the client is sent the descriptor for the first time, which it is with this.
-template <class Self, class Base, class Composition_, class Columns>
-bool ServerHost<Self, Base, Composition_, Columns>::is_first_for(Number client,
-                                                                 const Relayed& data) {
-  if (data.participant == client) return false;  // only a mistake tells it of itself
-  const Number pair = this->topology().pair_between(data.participant, client);
-  const auto relation = static_cast<Number>(2 * pair + index_of(data.stream));
-  return this->changes().mark_generated(relation, data.descriptor);
-}
-
 /// Counts and sends it.
 template <class Self, class Base, class Composition_, class Columns>
 void ServerHost<Self, Base, Composition_, Columns>::send_relayed(Number relation, Relayed relayed) {
@@ -91,13 +82,14 @@ void ServerHost<Self, Base, Composition_, Columns>::send_relayed(Number relation
   } else if (relayed.has_data && relayed.is_announcement) {
     if (cross_host) ++counts.pdp_data;
     const std::int64_t ride = relayed.has_heartbeat ? heartbeat_submessage_bytes : 0;
-    const VersionSizes& sizes = this->own_of(this->server_id()).sizes;
-    const bool of_server = relayed.participant == this->server_id();
+    const Number self = this->topology().pair(pair).source;
+    const VersionSizes& sizes = this->own_of(self).sizes;
+    const bool of_server = relayed.participant == self;
     weigh(ride + (relayed.is_goodbye ? goodbye_bytes
                   : of_server        ? sizes.of_server
                                      : sizes.passed_on));
   } else if (relayed.has_data) {
-    const bool initial = is_first_for(this->client_of(pair), relayed);
+    const bool initial = this->is_first_for(relation, relayed);
     const auto writer = static_cast<Number>(2 * relayed.participant + index_of(relayed.stream));
     if (cross_host) ++(initial ? counts.initial_data : counts.repair_data);
     packet.carries_initial = initial;

@@ -1,19 +1,21 @@
-// What the steps of a Discovery Server do (fsm/composition/server_parts.hpp), and what they are
-// about: its database, the lists of its writers, the queues of the thread that sends, and what
-// clients have heard of it. It is stated once for whoever executes the rules: the simulator, and
-// the audit of its runs; both include server_relays.hpp, which has the bodies. `Host` says
+// What the steps of Discovery Servers do (fsm/composition/server_parts.hpp), and what they are
+// about: of each its database, the lists of its writers, the queues of the thread that sends, and
+// what clients have heard of it. It is stated once for whoever executes the rules: the simulator,
+// and the audit of its runs; both include server_relays.hpp, which has the bodies. `Host` says
 //   run<Trigger>(n, packet)   the rule of a trigger, for owner n
 //   learn(client, relayed) a client learns what it has been sent
 //   runs_for_clients<Occasion>(relation), open_builtin(pair)   the rules of any participant
 //   forget_exchange(pair)  the same, if participants have a life
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "fsm/composition/server_life.hpp"
+#include "model/engine/composition_knobs.hpp"
 #include "model/engine/driver.hpp"
 #include "model/engine/packet.hpp"
 #include "model/engine/running_world.hpp"
@@ -22,6 +24,7 @@
 #include "model/fastdds/relay.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/fastdds/server_numbers.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model::fastdds {
 
@@ -34,26 +37,24 @@ class ServerSteps {
  public:
   explicit ServerSteps(RunState& run)
       : steps_of_{run},
-        database_{run.topology, run.scenario.dds.discovery, run.scenario.dds.server},
-        learners_(std::size_t{relay::count} * run.scenario.deployment.size()),
+        learners_(std::size_t{relay::count} * run.topology.server_count() *
+                  run.topology.participant_count()),
         changes_{run, MachineRef::Kind::pair} {
-    begin();
+    for (Number k = 0; k < run.topology.server_count(); ++k) servers_.push_back(begin(k));
   }
 
   [[nodiscard]] static WriterLayout writer_layout() { return {relay::count, relay::count}; }
   [[nodiscard]] static Number samples_of(Number) { return 0; }
-  [[nodiscard]] const std::vector<Number>& readers(Number w) const {
-    return relays_[w % relay::count].readers;
-  }
+  [[nodiscard]] const std::vector<Number>& readers(Number w) const { return writer(w).readers; }
   void changed(server::RelayOpen, Number r, bool open) {
-    RelayWriter& writer = relays_[r % relay::count];
+    RelayWriter& relay = writer(writer_of(r));
     if (!open) {
-      std::erase(writer.readers, r);
-      writer.about.erase(r);
+      std::erase(relay.readers, r);
+      relay.about.erase(r);
       return;
     }
-    writer.readers.push_back(r);
-    about(r).low = writer.first() - 1;
+    relay.readers.push_back(r);
+    about(r).low = relay.first() - 1;
   }
   /// Of a reader that closes its list is gone.
   void renew(server::Change, Number) {}
@@ -64,25 +65,39 @@ class ServerSteps {
   // What only the host knows.
   template <class World>
   [[nodiscard]] bool answer(server::OfAnnouncements, const World& w) const {
-    return relay_at(w) == relay::announcements;
+    return is_of_announcements(w);
   }
   template <class World>
   [[nodiscard]] bool answer(server::HistoryNotEmpty, const World& w) const {
-    return !relays_[relay_at(w)].empty();
+    return !relay_at(w).empty();
   }
   template <class World>
   [[nodiscard]] bool answer(server::TellsOfServer, const World& w) const {
     const Relayed& relayed = *w.packet().relayed;
-    return relayed.is_announcement && relayed.participant == server_id();
+    return relayed.is_announcement &&
+           relayed.participant == ends_of(w.template number<comp::owner::pair>()).source;
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::FromServer, const World& w) const {
+    return steps_of_.topology.is_server(ends_of(w.template number<comp::owner::pair>()).source);
+  }
+  template <class World>
+  [[nodiscard]] bool answer(server::Seeks, const World& w) const {
+    const Pair& ends = ends_of(w.template number<comp::owner::pair>());
+    if (!steps_of_.topology.is_server(ends.source)) return false;
+    const std::vector<Number> sought =
+        servers_sought_by(steps_of_.scenario.deployment, ends.source);
+    return std::ranges::find(sought, ends.destination) != sought.end();
   }
   template <class World>
   [[nodiscard]] bool answer(server::ToServer, const World& w) const {
-    return steps_of_.topology.pair(w.template number<comp::owner::pair>()).destination ==
-           server_id();
+    return steps_of_.topology.is_server(
+        ends_of(w.template number<comp::owner::pair>()).destination);
   }
   template <class World>
   [[nodiscard]] bool answer(server::IsInDatabase, const World& w) const {
-    return database_.is_in(client_of(w.template number<comp::owner::pair>()));
+    const Pair& ends = ends_of(w.template number<comp::owner::pair>());
+    return server_of(ends.source).database.is_in(ends.destination);
   }
   template <class World>
   [[nodiscard]] bool answer(server::HeartbeatIsNew, const World&) const {
@@ -90,7 +105,7 @@ class ServerSteps {
   }
   template <class World>
   [[nodiscard]] bool answer(server::IsAhead, const World& w) const {
-    return w.packet().relayed->base > relays_[relay_at(w)].next;
+    return w.packet().relayed->base > relay_at(w).next;
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(server::RegistrationNumber, const World& w) const {
@@ -111,13 +126,14 @@ class ServerSteps {
     return some_irrelevant_;
   }
   template <class World>
-  [[nodiscard]] bool answer(server::SomethingToSend, const World&) const {
-    return !queues_.empty();
+  [[nodiscard]] bool answer(server::SomethingToSend, const World& w) const {
+    return !server_at(w).queues.empty();
   }
   template <class World>
-  [[nodiscard]] bool answer(server::SomethingUnacknowledged, const World&) const {
-    return !database_.all_noted || relays_[relay::announcements].history.size() > 1 ||
-           !relays_[relay::publications].empty() || !relays_[relay::subscriptions].empty();
+  [[nodiscard]] bool answer(server::SomethingUnacknowledged, const World& w) const {
+    const Server& one = server_at(w);
+    return !one.database.all_noted || one.relays[relay::announcements].history.size() > 1 ||
+           !one.relays[relay::publications].empty() || !one.relays[relay::subscriptions].empty();
   }
   template <class World>
   [[nodiscard]] std::int64_t answer(server::PacketsSent, const World&) const {
@@ -148,8 +164,22 @@ class ServerSteps {
 
   // Opaque steps.
   template <class World>
+  void perform(server::ToEachServer, World& w) {
+    const Number client = ends_of(w.template number<comp::owner::pair>()).source;
+    for (const Number own : servers_of(steps_of_.scenario.deployment, client)) {
+      host().template run<fsm::composition::Happens<server::Announces>>(
+          steps_of_.topology.pair_between(client, own));
+    }
+  }
+  template <class World>
+  void perform(server::MeetServer, World& w) {
+    host().template run<fsm::composition::Happens<server::Meets>>(
+        w.template number<comp::owner::pair>());
+  }
+  template <class World>
   void perform(server::JoinParticipants, World& w) {
-    database_.join(client_of(w.template number<comp::owner::pair>()));
+    const Pair& ends = ends_of(w.template number<comp::owner::pair>());
+    server_of(ends.destination).database.join(ends.source);
   }
   template <class World>
   void perform(server::OpenReaders, World& w) {
@@ -161,8 +191,9 @@ class ServerSteps {
   }
   template <class World>
   void perform(server::OpenOwnWriter, World& w) {
-    const Number pair = steps_of_.topology.pair(w.template number<comp::owner::pair>()).reverse;
-    const Number s = relay_at(w) == relay::publications ? 0 : 1;
+    const Number pair = ends_of(w.template number<comp::owner::pair>()).reverse;
+    const Number relay = w.template number<comp::owner::relation>() % relay::count;
+    const Number s = relay == relay::publications ? 0 : 1;
     host().template runs_for_clients<fsm::composition::fastdds::WriterOpens>(2 * pair + s);
   }
   template <class World>
@@ -183,26 +214,35 @@ class ServerSteps {
     }
   }
   template <class World>
-  void perform(server::UpdateDatabase, World&) {
-    note_acknowledgements();
-    insert_all(database_.update());
+  void perform(server::UpdateDatabase, World& w) {
+    Server& one = server_at(w);
+    note_acknowledgements(one);
+    insert_all(one, one.database.update());
   }
   template <class World>
-  void perform(server::UpdateWithGoodbyes, World&);
+  void perform(server::UpdateWithGoodbyes, World& w);
   template <class World>
-  void perform(server::DeliverNext, World&) {
+  void perform(server::DeliverNext, World& w) {
+    Server& one = server_at(w);
     packets_sent_ = 0;
-    while (packets_sent_ == 0 && !queues_.empty()) packets_sent_ = deliver(queues_.take());
+    while (packets_sent_ == 0 && !one.queues.empty())
+      packets_sent_ = deliver(one, one.queues.take());
   }
   template <class World>
   void perform(server::TakeRelayed, World& w);
+  /// What a server tells of a client that it has forgotten, and tells that, counts as new again.
   template <class World>
   void perform(server::ForgetExchange, World& w) {
-    host().forget_exchange(w.template number<comp::owner::pair>());
+    const auto pair = w.template number<comp::owner::pair>();
+    const Pair& ends = ends_of(pair);
+    host().forget_exchange(pair);
+    if (steps_of_.topology.is_server(ends.destination))
+      server_of(ends.destination).database.tell_again(ends.source);
   }
   template <class World>
   void perform(server::JoinGoodbyes, World& w) {
-    database_.leave(client_of(w.template number<comp::owner::pair>()));
+    const Pair& ends = ends_of(w.template number<comp::owner::pair>());
+    server_of(ends.destination).database.leave(ends.source);
   }
   template <class World>
   void perform(server::ForgetRelayed, World& w) {
@@ -216,16 +256,40 @@ class ServerSteps {
   void perform(server::LoseDatabase, World& w);
 
  protected:
-  [[nodiscard]] Number server_id() const { return steps_of_.scenario.deployment.size(); }
-  /// The client of a pair with the server.
-  [[nodiscard]] Number client_of(Number pair) const {
-    return ServerNumbers::client_of(pair, steps_of_);
+  /// Servers that look for others begin to do so: `tick(pair, time)` for each.
+  template <class Tick>
+  void for_those_who_seek(Tick&& tick) const {
+    const Topology& topology = steps_of_.topology;
+    for (Number k = 0; k < topology.server_count(); ++k) {
+      const Number id = topology.first_server() + k;
+      for (const Number other : servers_sought_by(steps_of_.scenario.deployment, id)) {
+        tick(topology.pair_between(id, other), knob_value(server::RoutinePeriod{}, dds()));
+      }
+    }
+  }
+  /// Of what the relation carries.
+  [[nodiscard]] Number client_of(Number relation) const {
+    return ends_of(relation / relay::count).destination;
   }
   /// A descriptor that is new to the server.
-  void arrive(Number i, Stream s, Number d) { database_.arrive(database_.descriptor(i, s, d)); }
+  void arrive(Number server, Number i, Stream s, Number d) {
+    Database& database = server_of(server).database;
+    database.arrive(database.descriptor(i, s, d));
+  }
 
-  /// Which one its next ACKNACK to clients is, of their announcements or of a stream.
-  [[nodiscard]] Number next_acknack(Number relay) { return ++acknacks_[relay]; }
+  /// Which one the server's next ACKNACK to clients is, of their announcements or of a stream.
+  [[nodiscard]] Number next_acknack(Number server, Number relay) {
+    return ++server_of(server).acknacks[relay];
+  }
+  /// Whether the relation's client is sent the descriptor for the first time by its server, which
+  /// it is with this.
+  [[nodiscard]] bool is_first_for(Number relation, const Relayed& data) {
+    const Number client = client_of(relation);
+    if (data.participant == client) return false;  // only a mistake tells it of itself
+    Database& database = server_of(ends_of(relation / relay::count).source).database;
+    return database.tell(database.descriptor(data.participant, data.stream, data.descriptor),
+                         client);
+  }
 
   // What packets carry.
   /// It asks for all that is missing of what is announced; an initial one claims nothing.
@@ -234,8 +298,10 @@ class ServerSteps {
   }
   /// What the sending thread serves; otherwise it is the server's own announcement.
   [[nodiscard]] Relayed contents(server::RelayedData, Number relation, bool serves) {
-    if (serves) return with_heartbeat(relation, data_of(served_));
-    return data_of({relay::announcements, database_.announcement(server_id())});
+    const Number self = ends_of(relation / relay::count).source;
+    const Server& one = server_of(self);
+    if (serves) return with_heartbeat(relation, data_of(one, served_));
+    return data_of(one, {relay::announcements, one.database.announcement(self)});
   }
   [[nodiscard]] Relayed contents(server::RelayHeartbeat, Number relation, bool) {
     return with_heartbeat(relation, {});
@@ -247,6 +313,14 @@ class ServerSteps {
   }
 
  private:
+  /// What one server has.
+  struct Server {
+    Number id = 0;  ///< as a participant
+    Database database;
+    std::array<RelayWriter, relay::count> relays = {};
+    SendingQueues queues = {};
+    std::array<Number, relay::count> acknacks = {};  ///< sent so far
+  };
   /// A client's reader of one relay.
   struct Learner {
     std::int64_t base = 1;
@@ -264,23 +338,59 @@ class ServerSteps {
       received[k] = true;
     }
   };
-  /// It has its own announcement alone.
-  void begin() { relays_[relay::announcements].append(database_.announcement(server_id())); }
+  /// Server k has its own announcement alone.
+  [[nodiscard]] Server begin(Number k) const {
+    const Number id = steps_of_.topology.first_server() + k;
+    Server one{id, {steps_of_.topology, id, dds().discovery, dds().server}};
+    one.relays[relay::announcements].append(one.database.announcement(id));
+    return one;
+  }
 
   Host& host() { return static_cast<Host&>(*this); }
   [[nodiscard]] const DdsProfile& dds() const { return steps_of_.scenario.dds; }
-  [[nodiscard]] Learner& learner(Number r) {
-    return learners_[relay::count * client_of(r / relay::count) + r % relay::count];
+  [[nodiscard]] const Pair& ends_of(Number pair) const { return steps_of_.topology.pair(pair); }
+  /// Only a mistake asks for that of a client.
+  [[nodiscard]] Number place_of(Number id) const {
+    const Topology& topology = steps_of_.topology;
+    return topology.is_server(id) ? id - topology.first_server() : 0;
   }
-  [[nodiscard]] RelayWriter::Reader& about(Number r) { return relays_[r % relay::count].about[r]; }
+  [[nodiscard]] const Server& server_of(Number id) const { return servers_[place_of(id)]; }
+  [[nodiscard]] Server& server_of(Number id) { return servers_[place_of(id)]; }
   template <class World>
-  [[nodiscard]] static Number relay_at(const World& w) {
-    return w.template number<comp::owner::writer>() % relay::count;
+  [[nodiscard]] const Server& server_at(const World& w) const {
+    return server_of(w.template number<comp::owner::participant>());
+  }
+  template <class World>
+  [[nodiscard]] Server& server_at(const World& w) {
+    return server_of(w.template number<comp::owner::participant>());
+  }
+  [[nodiscard]] Learner& learner(Number r) {
+    const Number row = ServerNumbers::row_of_pair(r / relay::count, steps_of_.topology);
+    return learners_[relay::count * row + r % relay::count];
+  }
+  /// The writer of a relation, by number.
+  [[nodiscard]] Number writer_of(Number relation) const {
+    return relay::count * ends_of(relation / relay::count).source + relation % relay::count;
+  }
+  [[nodiscard]] const RelayWriter& writer(Number w) const {
+    return server_of(w / relay::count).relays[w % relay::count];
+  }
+  [[nodiscard]] RelayWriter& writer(Number w) {
+    return server_of(w / relay::count).relays[w % relay::count];
+  }
+  [[nodiscard]] RelayWriter::Reader& about(Number r) { return writer(writer_of(r)).about[r]; }
+  template <class World>
+  [[nodiscard]] const RelayWriter& relay_at(const World& w) const {
+    return writer(w.template number<comp::owner::writer>());
+  }
+  template <class World>
+  [[nodiscard]] static bool is_of_announcements(const World& w) {
+    return w.template number<comp::owner::writer>() % relay::count == relay::announcements;
   }
   template <class World>
   [[nodiscard]] static std::int64_t of_relay(const World& w, Nanoseconds of_announcements,
                                              Nanoseconds of_descriptors) {
-    return (relay_at(w) == relay::announcements ? of_announcements : of_descriptors).count();
+    return (is_of_announcements(w) ? of_announcements : of_descriptors).count();
   }
   template <class Event>
   fsm::Stepper<fsm::ChangeForReader>::Output step(RelayWriter::Entry& entry, Number relation,
@@ -293,46 +403,46 @@ class ServerSteps {
     return entry.state == fsm::Reflect<fsm::ChangeForReader>::id<State>;
   }
   [[nodiscard]] Relayed asks(Number relation, bool initial);
-  [[nodiscard]] Relayed data_of(SendingQueues::Entry entry) const;
+  [[nodiscard]] Relayed data_of(const Server& one, SendingQueues::Entry entry) const;
   /// It announces all that there is.
   [[nodiscard]] Relayed with_heartbeat(Number relation, Relayed relayed) {
     relayed.has_heartbeat = true;
-    relayed.first = relays_[relation % relay::count].first();
-    relayed.last = relays_[relation % relay::count].last();
-    relayed.count = ++relays_[relation % relay::count].heartbeats;
+    RelayWriter& relay = writer(writer_of(relation));
+    relayed.first = relay.first();
+    relayed.last = relay.last();
+    relayed.count = ++relay.heartbeats;
     return relayed;
   }
-  void note_acknowledgements();
-  void insert_all(const Database::Lists& lists);
-  bool is_pending(Number relay, std::int64_t number, Item item);
-  void remove(Number relay, Item item) {
-    if (relays_[relay].number_of(item) == 0) return;
-    relays_[relay].remove(item);
-    queues_.remove({relay, item});
+  void learn(Number relation, const Relayed& relayed);
+  void learn_from_server(const Pair& ends, const Relayed& relayed);
+  void note_acknowledgements(Server& one);
+  void insert_all(Server& one, const Database::Lists& lists);
+  bool is_pending(Server& one, Number relay, std::int64_t number, Item item);
+  static void remove(Server& one, Number relay, Item item) {
+    if (one.relays[relay].number_of(item) == 0) return;
+    one.relays[relay].remove(item);
+    one.queues.remove({relay, item});
   }
-  void leave_history(Number relay, Item item) {
-    remove(relay, item);
-    database_.forget(item);
+  static void leave_history(Server& one, Number relay, Item item) {
+    remove(one, relay, item);
+    one.database.forget(item);
   }
-  [[nodiscard]] Number relay_of(Item item) const {
-    const Database::Contents& contents = database_.contents(item);
+  [[nodiscard]] static Number relay_of(const Server& one, Item item) {
+    const Database::Contents& contents = one.database.contents(item);
     if (contents.is_announcement) return relay::announcements;
     return contents.stream == Stream::pub ? relay::publications : relay::subscriptions;
   }
   template <class Occasion>
-  void run_for_relay(Number relay) {
-    host().template run<fsm::composition::Happens<Occasion>>(relay::count * server_id() + relay);
+  void run_for_relay(const Server& one, Number relay) {
+    host().template run<fsm::composition::Happens<Occasion>>(relay::count * one.id + relay);
   }
-  bool insert(Number relay, Item item);
-  std::int64_t deliver(SendingQueues::Entry entry);
+  bool insert(Server& one, Number relay, Item item);
+  std::int64_t deliver(Server& one, SendingQueues::Entry entry);
   bool skip_before(Number relation, std::int64_t number);
 
   RunState& steps_of_;
-  Database database_;
-  std::array<RelayWriter, relay::count> relays_;
-  SendingQueues queues_;
-  std::vector<Learner> learners_;  // relay::count · client + relay
-  std::array<Number, relay::count> acknacks_{};
+  std::vector<Server> servers_;
+  std::vector<Learner> learners_;  // by server, client and relay
   // Of what is being done.
   bool heartbeat_is_new_ = false;
   bool some_requested_ = false;

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "model/implementations.hpp"
+#include "model/life.hpp"
+#include "model/servers.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/packet_text.hpp"
 #include "model/trace/perfetto_labels.hpp"
@@ -28,10 +30,11 @@ void add_arg(std::string& args) {
 PerfettoWriter::PerfettoWriter(std::ostream& out, const Scenario& scenario, Effects effects)
     : events_{out}, fragmentation_{scenario.wireless}, channels_{channel_names(scenario)} {
   if (effects == Effects::named) effect_names_.emplace(scenario.dds);
-  for (const Participant& participant : scenario.deployment.participants) {
-    hosts_.push_back(participant.host);
+  const Deployment& deployment = scenario.deployment;
+  const std::uint32_t servers = traits_of(scenario.dds).has_server ? server_count(deployment) : 0;
+  for (std::uint32_t i = 0; i < deployment.size() + servers; ++i) {
+    hosts_.push_back(host_of(deployment, i));
   }
-  if (traits_of(scenario.dds).has_server) hosts_.emplace_back();
   for (const Stage& stage : scenario.wireless.stages) stages_.push_back(json_string(stage.name));
   serving_.resize(channels_.size());
   waiting_.resize(channels_.size());

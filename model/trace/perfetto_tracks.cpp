@@ -4,6 +4,8 @@
 #include "model/cyclone/endpoints.hpp"
 #include "model/engine/topology.hpp"
 #include "model/implementations.hpp"
+#include "model/life.hpp"
+#include "model/servers.hpp"
 #include "model/trace/event_subject.hpp"
 #include "model/trace/json_text.hpp"
 #include "model/trace/scenario_names.hpp"
@@ -179,13 +181,13 @@ void name_tracks(PerfettoEvents& events, const Scenario& scenario) {
     events.thread_name(channel_track(c), "channel " + channels[c]);
   }
   const bool user_topics = traits_of(scenario.dds).has_control_relations;
-  const auto& participants = scenario.deployment.participants;
-  const bool server = traits_of(scenario.dds).has_server;
-  for (std::uint32_t i = 0; i < participants.size() + (server ? 1 : 0); ++i) {
-    const bool is_server = i == participants.size();
+  const Deployment& deployment = scenario.deployment;
+  const std::uint32_t servers = traits_of(scenario.dds).has_server ? server_count(deployment) : 0;
+  for (std::uint32_t i = 0; i < deployment.size() + servers; ++i) {
+    const bool is_server = i >= deployment.size();
     std::string name;
-    append(name, is_server ? "server " : "participant ", i, " (host ",
-           is_server ? 0 : participants[i].host.value, ")");
+    append(name, is_server ? "server " : "participant ", i, " (host ", host_of(deployment, i).value,
+           ")");
     events.process_name(participant_process(i), name);
     events.thread_name(participant_track(i), "participant");
     events.thread_name(writer_track(i, Stream::pub), "publications writer");

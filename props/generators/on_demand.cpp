@@ -9,6 +9,7 @@
 #include "model/fastdds/types.hpp"
 #include "model/implementations.hpp"
 #include "model/life.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::props {
 
@@ -142,6 +143,24 @@ void draw_discovery(std::uint64_t seed, Discovery discovery, Scenario& scenario)
   server.rejoin = seed % 2 == 1 ? Rejoin::known : Rejoin::dropped;
   server.known = pick(9, {0, 1}) == 1 ? ServerKnown::locator : ServerKnown::guid;
   scenario.deployment.send_cost = Nanoseconds{pick(8, {50, 0, 400}) * 1'000};
+}
+
+void draw_servers(Dice& dice, Scenario& scenario) {
+  Deployment& deployment = scenario.deployment;
+  const bool links = scenario.dds.server.known == ServerKnown::guid;
+  const std::uint32_t count = dice.count(2, 3);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    DiscoveryServer& server = deployment.servers.emplace_back();
+    server.host = deployment.participants[dice.count(0, deployment.size() - 1)].host;
+    for (std::uint32_t other = 0; links && other < count; ++other) {
+      if (other != k && dice.chance(50)) server.servers.push_back(other);
+    }
+  }
+  for (Participant& participant : deployment.participants) {
+    for (std::uint32_t k = 0; k < count; ++k) {
+      if (dice.chance(60)) participant.servers.push_back(k);
+    }
+  }
 }
 
 void draw_version(Dice& dice, DdsProfile& dds) {
@@ -309,11 +328,9 @@ void draw_amendments(Dice& dice, Scenario& scenario) {
 }
 
 namespace {
-/// A Discovery Server begins knowing nobody, and comes back under its name; its clients do not.
+/// A Discovery Server comes back under its name.
 void draw_server(Dice& dice, std::uint32_t server, Life& life) {
   constexpr std::int64_t ms = 1'000'000;
-  life.stale.clear();
-  for (Restart& restart : life.restarts) restart.identity = Identity::fresh;
   if (dice.chance(40)) {
     const Nanoseconds stop{dice.among({0, 100, 700, 1'500}) * ms};
     const Nanoseconds start = stop + Nanoseconds{dice.among({1, 300, 2'000}) * ms};
@@ -324,12 +341,20 @@ void draw_server(Dice& dice, std::uint32_t server, Life& life) {
   if (dice.chance(30)) life.leases.push_back({server, Nanoseconds{dice.among({300, 900}) * ms}});
   if (!life.lease && dice.chance(70)) life.lease = Nanoseconds{dice.among({200, 600, 1'500}) * ms};
 }
+/// Participants begin knowing nobody, and come back as somebody new.
+void draw_with_servers(Dice& dice, const Deployment& deployment, Life& life) {
+  life.stale.clear();
+  for (Restart& restart : life.restarts) restart.identity = Identity::fresh;
+  for (std::uint32_t k = 0; k < server_count(deployment); ++k) {
+    draw_server(dice, deployment.size() + k, life);
+  }
+}
 }  // namespace
 
 void draw_life(Dice& dice, Scenario& scenario) {
   const std::vector<Participant>& all = scenario.deployment.participants;
   Life& life = scenario.deployment.life.emplace(drawn_life(dice, all));
-  if (traits_of(scenario.dds).has_server) draw_server(dice, scenario.deployment.size(), life);
+  if (traits_of(scenario.dds).has_server) draw_with_servers(dice, scenario.deployment, life);
   if (scenario.dds.amendments) draw_endpoints(dice, all, life);
   if (!traits_of(scenario.dds).has_living_composition) return;
   for (Participant& one : scenario.deployment.participants) {

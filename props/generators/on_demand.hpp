@@ -31,6 +31,10 @@ void draw_disturbances(Dice& dice, model::Scenario& scenario);
 /// Another way to discover, with odd knobs of it, as a function of the seed.
 void draw_discovery(std::uint64_t seed, model::Discovery discovery, model::Scenario& scenario);
 
+/// Two or three Discovery Servers, which the scenario must have; participants are clients of all or
+/// of some, and servers may look for each other. Lives have to be drawn after them.
+void draw_servers(Dice& dice, model::Scenario& scenario);
+
 /// What later versions of Fast DDS have.
 void draw_version(Dice& dice, model::DdsProfile& dds);
 /// Types of endpoints that participants mostly ask for; nothing is lost then. The profile must be

@@ -11,6 +11,7 @@
 #include "model/fastdds/matching.hpp"
 #include "model/fastdds/relayed.hpp"
 #include "model/fastdds/server_relays.hpp"
+#include "model/servers.hpp"
 #include "props/monitors/auditor.hpp"
 #include "props/monitors/auditors.hpp"
 
@@ -57,6 +58,11 @@ class ServerAuditorOf
   ServerAuditorOf(model::RunState& run, Audit& audit) : Rules{run, audit}, Steps{run} {}
 
   // What starts rules.
+  void started() override {
+    Rules::started();
+    Steps::for_those_who_seek(
+        [&](Number pair, std::int64_t at) { this->schedule(server::ClientSync{}, pair, at); });
+  }
   void due(const model::Event& event) override {
     Rules::due(event);
     Clients::due(event);
@@ -77,10 +83,10 @@ class ServerAuditorOf
     const model::Pair& ends = this->topology().pair(relation / 2);
     before.for_each([&](Number d) {
       if ((received.word(d / 64) >> d % 64 & 1) == 0) return;
-      this->arrive(ends.source, model::streams[relation % 2], d);
+      this->arrive(ends.destination, ends.source, model::streams[relation % 2], d);
       some = true;
     });
-    if (some) this->template run<comp::Happens<server::Arrives>>(this->server_id());
+    if (some) this->template run<comp::Happens<server::Arrives>>(ends.destination);
   }
   /// Discovery needs what clients learn.
   [[nodiscard]] bool is_required(Number) const override { return false; }
@@ -148,12 +154,13 @@ class ServerAuditorOf
   /// Whether discovery needs that the pair's destination learns the descriptor.
   [[nodiscard]] virtual bool counts(Number pair, model::Stream s, Number d) const {
     const model::Pair& ends = this->topology().pair(pair);
-    return ends.source != this->server_id() &&
+    return !this->topology().is_server(ends.source) &&
+           !this->topology().is_server(ends.destination) &&
            model::fastdds::has_other_side(this->topology(), ends.destination, s, d);
   }
   void expect_start(Number i) override {
-    this->schedule(server::ClientAnnouncement{},
-                   this->topology().pair_between(i, this->server_id()),
+    const Number first = servers_of(this->run_.scenario.deployment, i).front();
+    this->schedule(server::ClientAnnouncement{}, this->topology().pair_between(i, first),
                    this->topology().start(i).count());
   }
 };
@@ -178,7 +185,9 @@ class LivingServerAuditor final
   }
   void started() override {
     ServerAuditorOf::started();
-    schedule(comp::Announcement{}, server_id(), 0);
+    for (Number k = 0; k < topology().server_count(); ++k) {
+      schedule(comp::Announcement{}, topology().first_server() + k, 0);
+    }
   }
   void received(const model::Packet& packet, Number receiver) override {
     const model::Pair& ends = topology().pair(packet.pair);

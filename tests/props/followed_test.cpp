@@ -133,11 +133,13 @@ TEST(Followed, DrawnLivesUnderCycloneDdsAreWhatTheRulesSay) {
   }
 }
 
-/// Clients or super clients of a server.
+/// Clients or super clients of a server, or of several.
 Scenario with_server(std::uint64_t seed) {
   Scenario scenario = oracle::random_scenario(seed, ImplementationKind::fastdds);
   using enum model::Discovery;
   draw_discovery(seed, seed % 4 < 2 ? server : super_client, scenario);
+  Dice dice{seed};
+  if (seed % 3 == 2) draw_servers(dice, scenario);
   return scenario;
 }
 
@@ -318,9 +320,9 @@ TEST(Followed, LivesWithAServerAreWhatTheRulesSay) {
 TEST(Followed, MistakesInLivesWithAServerAreNoticed) {
   std::vector<Scenario> scenarios;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) scenarios.push_back(living_with_server(seed));
-  const std::set<std::string> of_lives{"HearFrom",     "LeaseIsChecked", "CloseClient",
-                                       "LoseClient",   "LoseServer",     "ServerAnnounces",
-                                       "ServerReturns"};
+  const std::set<std::string> of_lives{"HearFrom",    "LeaseIsChecked", "CloseClient",
+                                       "LoseClient",  "LoseServer",     "ServerAnnounces",
+                                       "CloseServer", "CloseLearners",  "ServerReturns"};
   expect_noticed("fastdds-server-living", scenarios, 70,
                  [&](const std::string& rule) { return of_lives.contains(rule); });
 }

@@ -84,7 +84,11 @@ model::Scenario drawn(std::uint64_t seed, const model::DdsProfile& dds) {
   constexpr model::Nanoseconds long_enough{20'000'000'000};
   model::Scenario scenario =
       props::draw_scenario(seed, size, {.implementation = dds.implementation});
-  if (model::traits_of(dds).has_server) props::draw_discovery(seed, dds.discovery, scenario);
+  if (model::traits_of(dds).has_server) {
+    props::draw_discovery(seed, dds.discovery, scenario);
+    props::Dice dice{seed};
+    if (seed % 3 == 2) props::draw_servers(dice, scenario);
+  }
   scenario.run_until = model::RunUntil::time_limit;
   scenario.time_limit = long_enough;
   if (seed % 2 == 1) {

@@ -53,6 +53,7 @@ struct OfRelay : Learner {
     return host.knob(comp::ResponseDelay{});
   }
   void perform(comp::server::TakeRelayed, auto& w) { knowledge.take(w.packet()); }
+  static void perform(comp::server::MeetServer, auto&) {}  // the reader is a client's
 };
 
 /// The server's reader of a client's announcements.

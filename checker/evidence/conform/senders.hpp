@@ -36,11 +36,12 @@ inline constexpr Sender reply{"Reply", "AckNack"};
 
 /// The same in what a Discovery Server adds (fsm/composition/server.hpp).
 namespace server {
-inline constexpr Sender announces_first{"ClientAnnounces", "Registration", "if not KnownByLocator"};
-inline constexpr Sender announces{"ClientAnnounces", "Registration",
-                                  "if not (not (AnnouncementsSent > 0))"};
+inline constexpr Sender announces_first{"AnnouncesToServer", "Registration",
+                                        "if not KnownByLocator"};
+inline constexpr Sender announces{"AnnouncesToServer", "Registration",
+                                  "if not (not (AnnouncementsSent > 1))"};
 inline constexpr Sender tick{"ClientSyncIsDue", "Registration"};
-inline constexpr Sender first_heartbeat{"ClientAnnounces", "RegistrationHeartbeat"};
+inline constexpr Sender first_heartbeat{"AnnouncesToServer", "RegistrationHeartbeat"};
 inline constexpr Sender heartbeat_to_server_met{"RelayedDataArrives", "RegistrationHeartbeat"};
 inline constexpr Sender asked_heartbeat{"RegistrationAckNackArrives", "RegistrationHeartbeat"};
 inline constexpr Sender heartbeat_again{"RegistrationExpires", "RegistrationHeartbeat"};

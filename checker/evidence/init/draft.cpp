@@ -153,6 +153,17 @@ std::string types(const System& system, const model::DdsProfile& dds) {
       system.unknown_types ? "given:" : "assumed, as in Nav2:");
 }
 
+/// Several Discovery Servers; one is there anyway.
+std::string servers(const System& system) {
+  if (system.servers < 2) return {};
+  std::vector<std::string> hosts;
+  for (std::uint32_t k = 0; k < system.servers; ++k) {
+    hosts.push_back(fmt::format("{{host: {}}}", k % system.hosts));
+  }
+  return fmt::format("  servers: [{}]  # assumed: on which hosts they are\n",
+                     fmt::join(hosts, ", "));
+}
+
 std::string head(const System& system) {
   std::string text =
       "# Drafted by `stormproof init`. Change what is not so on your robots, then:\n"
@@ -214,6 +225,7 @@ Result<std::string> draft(const System& system, const SpecPath& specs) {
       system.hosts, system.participants, system.endpoints,
       system.dds.empty() ? "ROS 2 " + system.ros : system.dds, system.wireless, system.hosts,
       system.participants, system.endpoints);
+  text += servers(system);
   const std::string before = text;
   text += types(system, *dds);
   std::string rest = schedule(system, over_time);

@@ -25,6 +25,7 @@ struct System {
   std::string dds{};               ///< a profile or the vendor's file instead of both; may be empty
   std::string discovery{};       ///< of Fast DDS: "server", "super_client", "static"; empty: simple
   std::uint32_t peer_ports = 4;  ///< of each host, with "static"
+  std::uint32_t servers = 1;     ///< Discovery Servers that everybody is a client of
   std::string wireless = "wifi-80211n";
   /// Message types of a participant that another one does not have, where participants ask for
   /// types (Fast DDS 3); nothing: `usual_unknown_types`.

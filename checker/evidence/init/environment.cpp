@@ -175,14 +175,30 @@ class Environment {
                        ports_of_localhost, peers);
   }
 
+  /// Those between semicolons; an empty place is an identity that no server has.
+  static std::uint32_t servers_in(const std::string& list) {
+    std::uint32_t count = 0;
+    std::size_t begin = 0;
+    for (std::size_t end = 0; end != std::string::npos; begin = end + 1) {
+      end = list.find(';', begin);
+      if (end != begin && begin < list.size()) ++count;
+    }
+    return count;
+  }
+
   void take_server() {
     const std::string servers = value("ROS_DISCOVERY_SERVER");
     if (servers.empty()) return;
     const std::string super = value("ROS_SUPER_CLIENT");
     const bool is_super = super == "TRUE" || super == "True" || super == "true" || super == "1";
     system_.discovery = is_super ? "super_client" : "server";
-    remark("ROS_DISCOVERY_SERVER", is_super ? "With ROS_SUPER_CLIENT all are super clients."
-                                            : "All are clients of one server on the first host.");
+    system_.servers = servers_in(servers);
+    const std::string one = is_super ? "With ROS_SUPER_CLIENT all are super clients."
+                                     : "All are clients of one server on the first host.";
+    remark("ROS_DISCOVERY_SERVER", system_.servers < 2
+                                       ? one
+                                       : fmt::format("All are {}clients of all {} servers.",
+                                                     is_super ? "super " : "", system_.servers));
   }
 
   System& system_;

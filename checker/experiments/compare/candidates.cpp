@@ -156,6 +156,9 @@ class Kitchen {
     for (const std::string& given : overrides_) {
       if (!given.starts_with("dds=") && !given.starts_with("dds.")) changes.push_back(given);
     }
+    // Several servers are the scenario's own; others have one or none.
+    const model::Deployment& deployment = all_.scenario.deployment;
+    if (!deployment.servers.empty()) changes.emplace_back("deployment.servers=[]");
     const auto scenario = model::config::read_scenario(reference_, changes, specs_);
     if (!scenario) {
       made.skipped = to_string(scenario.error());
@@ -178,7 +181,9 @@ class Kitchen {
     };
     const DdsProfile own = plain(all_.scenario.dds);
     const bool reaches_all = model::fastdds::announcements_reach_all(all_.scenario);
+    const bool lists_servers = !all_.scenario.deployment.servers.empty();
     const auto same = std::ranges::find_if(all_.list, [&](const Candidate& one) {
+      if (lists_servers) return false;
       if (one.asks_every_port && !reaches_all) return false;
       return one.skipped.empty() && one.placement == Placement::as_it_is && plain(one.dds) == own;
     });
@@ -234,6 +239,14 @@ Result<Candidates> candidates_of(const std::string& reference,
   return all;
 }
 
+namespace {
+/// There is one, if there is any.
+void without_listed_servers(model::Deployment& deployment) {
+  deployment.servers.clear();
+  for (model::Participant& one : deployment.participants) one.servers.clear();
+}
+}  // namespace
+
 Instance instance_of(const Candidates& all, const Candidate& candidate, Grows what,
                      std::uint32_t size) {
   Instance instance{all.scenario, candidate.skipped};
@@ -242,6 +255,7 @@ Instance instance_of(const Candidates& all, const Candidate& candidate, Grows wh
   scenario.dds = candidate.dds;
   scenario.wireless = candidate.wireless;
   scenario.deployment = grown(all.scenario.deployment, what, size);
+  if (!candidate.is_own) without_listed_servers(scenario.deployment);
   if (candidate.asks_every_port) {
     const std::uint32_t ports = size_of(scenario.deployment, Grows::participants);
     scenario.dds.peer_ports = std::max(scenario.dds.peer_ports, ports);

@@ -135,16 +135,24 @@ Digest digest_of(const model::Deployment& deployment) {
   if (deployment.send_cost) {
     fmt::format_to(std::back_inserter(text), "server {}\n", deployment.send_cost->count());
   }
+  for (const model::DiscoveryServer& server : deployment.servers) {
+    fmt::format_to(std::back_inserter(text), "server on {}", server.host.value);
+    for (const std::uint64_t k : server.servers) {
+      fmt::format_to(std::back_inserter(text), " with {}", k);
+    }
+    text.push_back('\n');
+  }
   append_fleet(deployment, text);
   for (const model::Participant& participant : deployment.participants) {
     // A new member has to be named here; it would not compile otherwise.
-    const auto& [host, publications, subscriptions, start, endpoints_done, open, ready, dds] =
-        participant;
+    const auto& [host, publications, subscriptions, start, endpoints_done, open, ready, dds,
+                 servers] = participant;
     fmt::format_to(std::back_inserter(text), "{} {} {} {} {}", host.value, publications,
                    subscriptions, start.count(), endpoints_done.count());
     if (open) fmt::format_to(std::back_inserter(text), " open {}", open->count());
     if (ready) fmt::format_to(std::back_inserter(text), " ready {}", ready->count());
     if (dds) fmt::format_to(std::back_inserter(text), " dds {}", hex(digest_of(*dds)));
+    for (const std::uint64_t k : servers) fmt::format_to(std::back_inserter(text), " of {}", k);
     text.push_back('\n');
   }
   return digest_of(std::string_view{text.data(), text.size()});

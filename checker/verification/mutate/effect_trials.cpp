@@ -44,6 +44,8 @@ model::Scenario draw(std::uint64_t seed, model::ImplementationKind kind,
   if (model::traits_of(kind).has_server) {
     using enum model::Discovery;
     props::draw_discovery(seed, seed % 2 == 1 ? server : super_client, scenario);
+    props::Dice dice{seed};
+    if (seed % 3 == 2) props::draw_servers(dice, scenario);
   }
   return scenario;
 }

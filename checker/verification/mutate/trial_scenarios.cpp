@@ -186,7 +186,8 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::cyclone::Cyclone>) {
   return list;
 }
 
-/// Clients of a server on the host of two of them, and super clients, with losses.
+/// Clients of a server on the host of two of them, and super clients, with losses; and clients of
+/// one server each, of which one looks for the other.
 std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>) {
   const auto with_server = [](model::Discovery discovery, model::Scenario scenario) {
     scenario.deployment.participants[1].start = ms(460);  // the others know the server then
@@ -199,8 +200,13 @@ std::vector<Trial> trials_of(model::Of<fsm::composition::server::FastDdsServer>)
   model::Scenario lossy = quiet({12, 25, 40, 41, 60, 80, 100, 101, 130, 160});
   lossy.deployment = model::Deployment::homogeneous(2, 2, 1);
   model::Scenario few = quiet({7, 30});
+  model::Scenario linked = quiet({50, 90});
+  linked.deployment.servers = {{model::HostId{0}, {}}, {model::HostId{1}, {0}}};
+  linked.deployment.participants[0].servers = {0};
+  linked.deployment.participants[1].servers = {1};
   return {{"clients", with_server(model::Discovery::server, std::move(lossy)), false},
-          {"super clients", with_server(model::Discovery::super_client, std::move(few)), false}};
+          {"super clients", with_server(model::Discovery::super_client, std::move(few)), false},
+          {"linked servers", with_server(model::Discovery::server, std::move(linked)), false}};
 }
 
 }  // namespace

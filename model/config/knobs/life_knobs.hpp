@@ -14,6 +14,7 @@
 #include "model/implementations.hpp"
 #include "model/life.hpp"
 #include "model/scenario.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model::config {
 
@@ -116,9 +117,10 @@ void visit_knobs(auto& visit, Is<Life> auto& life) {
              "participants that say that they go, and do not come back", Presence::optional);
 }
 
-/// How many there are that something may happen to: a Discovery Server is one, too.
+/// How many there are that something may happen to: Discovery Servers are among them.
 [[nodiscard]] inline std::uint32_t everybody(const Scenario& scenario) {
-  return scenario.deployment.size() + (traits_of(scenario.dds).has_server ? 1 : 0);
+  const bool has_server = traits_of(scenario.dds).has_server;
+  return scenario.deployment.size() + (has_server ? server_count(scenario.deployment) : 0);
 }
 /// Whether both are participants of different hosts.
 [[nodiscard]] inline bool is_cross_host(const Scenario& scenario, std::uint32_t i,

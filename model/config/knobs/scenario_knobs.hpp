@@ -16,6 +16,7 @@
 #include "model/config/knobs/value_types.hpp"
 #include "model/config/knobs/wireless_knobs.hpp"
 #include "model/scenario.hpp"
+#include "model/servers.hpp"
 
 namespace stormproof::model::config {
 
@@ -53,6 +54,7 @@ inline constexpr std::string_view endpoints_done_key = "endpoints_done";
 inline constexpr std::string_view open_key = "open";
 inline constexpr std::string_view ready_key = "ready";
 inline constexpr std::string_view open_before_key = "open_before";
+inline constexpr std::string_view servers_key = "servers";
 
 inline constexpr NumberType participant_count = count_range(1, Deployment::max_participants);
 
@@ -133,6 +135,22 @@ void visit_knobs(auto& visit, Is<Participant> auto& participant) {
                 "its DDS profile, of the implementation of the scenario's; that of its host or of "
                 "the scenario if absent",
                 Presence::optional);
+  visit.knob(servers_key, participant.servers,
+             SomeNumbersType{{count_range(0, Deployment::max_participants - 1)}},
+             "numbers of the deployment's servers that it is a client of, as the places of "
+             "ROS_DISCOVERY_SERVER; of all if absent",
+             Presence::optional);
+}
+
+void visit_knobs(auto& visit, Is<DiscoveryServer> auto& server) {
+  visit.knob("host", server.host.value, count_range(0, Deployment::max_participants - 1),
+             "number of its host");
+  visit.knob(
+      servers_key, server.servers,
+      SomeNumbersType{{count_range(0, Deployment::max_participants - 1)}},
+      "numbers of other servers that it looks for, to share with them what it knows; none if "
+      "absent",
+      Presence::optional);
 }
 
 void visit_knobs(auto& visit, Is<Schedule> auto& schedule) {
@@ -164,6 +182,10 @@ void visit_common_knobs(auto& visit, Is<Deployment> auto& deployment) {
   visit.knob("send_cost", deployment.send_cost, delay_range,
              "between two datagrams of a Discovery Server; 50us if absent; used by discovery: "
              "server and super_client",
+             Presence::optional);
+  visit.list(servers_key, deployment.servers, ListSize{0, Deployment::max_participants},
+             "Discovery Servers, numbered from 0 in this order, after all participants where those "
+             "are numbered; one on host 0 if absent; used by discovery: server and super_client",
              Presence::optional);
   visit.section("types", deployment.types,
                 "endpoints say which type their topic has, and participants ask for those that "
@@ -290,6 +312,44 @@ void visit_crowd(auto& visit, Is<Scenario> auto& scenario) {
                   is_said ? "" : ", or what its own file says of it"));
 }
 
+/// Servers are there where participants discover through them, on hosts that there are.
+void visit_servers(auto& visit, Is<Scenario> auto& scenario) {
+  const Deployment& deployment = scenario.deployment;
+  const bool has_server = traits_of(scenario.dds).has_server;
+  visit.rule(has_server || deployment.servers.empty(), "deployment.servers",
+             "none, or a DDS profile with discovery: server or super_client");
+  const std::size_t hosts = deployment.hosts.size();
+  for (std::size_t k = 0; k < deployment.servers.size(); ++k) {
+    if (hosts == 0 || deployment.servers[k].host.value < hosts) continue;
+    return visit.rule(false, fmt::format("deployment.servers.{}.host", k),
+                      fmt::format("one of the {} hosts of the deployment", hosts));
+  }
+  for (std::size_t k = 0; k < deployment.servers.size(); ++k) {
+    const auto& sought = deployment.servers[k].servers;
+    const auto is_other = [&](std::uint64_t other) {
+      return other < deployment.servers.size() && other != k;
+    };
+    if (std::ranges::all_of(sought, is_other)) continue;
+    return visit.rule(false, fmt::format("deployment.servers.{}.servers", k),
+                      fmt::format("numbers of other servers of the deployment, which has {}",
+                                  deployment.servers.size()));
+  }
+  const bool is_linked = std::ranges::any_of(
+      deployment.servers, [](const DiscoveryServer& one) { return !one.servers.empty(); });
+  visit.rule(!is_linked || scenario.dds.server.known == ServerKnown::guid, "deployment.servers",
+             "no servers that look for others, or dds.server_known: guid; since Fast DDS 3.0 all "
+             "that can reach each other become one mesh, which is not modelled");
+  const std::uint32_t count = has_server ? server_count(deployment) : 0;
+  for (std::size_t i = 0; i < deployment.participants.size(); ++i) {
+    const auto is_there = [&](std::uint64_t k) { return k < count; };
+    if (std::ranges::all_of(deployment.participants[i].servers, is_there)) continue;
+    return visit.rule(
+        false, fmt::format("deployment.participants.{}.servers", i),
+        count == 0 ? std::string{"none, or a DDS profile with discovery: server or super_client"}
+                   : fmt::format("numbers of servers of the deployment, which has {}", count));
+  }
+}
+
 /// The keys whose values may be the name of a file.
 inline constexpr std::string_view dds_key = "dds";
 inline constexpr std::string_view wireless_key = "wireless";
@@ -314,6 +374,7 @@ void visit_knobs(auto& visit, Is<Scenario> auto& scenario) {
                 Presence::optional);
 
   visit_mixed(visit, scenario);
+  visit_servers(visit, scenario);
   visit_life(visit, scenario);
   visit_types(visit, scenario);
   const DescriptorProfile& defaults = scenario.dds.descriptors;

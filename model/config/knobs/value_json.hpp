@@ -58,6 +58,9 @@ template <class Enum>
 [[nodiscard]] inline Json json_of(const NumberSetType&, const std::vector<std::uint64_t>& value) {
   return value;
 }
+[[nodiscard]] inline Json json_of(const SomeNumbersType&, const std::vector<std::uint64_t>& value) {
+  return value.empty() ? Json() : Json(value);
+}
 
 /// JSON Schema of one value.
 [[nodiscard]] Json schema_of(const NumberType& type);

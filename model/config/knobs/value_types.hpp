@@ -221,5 +221,7 @@ struct NumberSetType {
   Complaint read(const Node& node, std::vector<std::uint64_t>& value) const;
   std::string expected() const;
 };
+/// One that is written only if it is not empty.
+struct SomeNumbersType : NumberSetType {};
 
 }  // namespace stormproof::model::config

@@ -147,8 +147,9 @@ std::vector<std::string> servers_in(const XmlElement& list, Reading& reading) {
   return servers;
 }
 
-/// A client asks its servers, and nobody else: it needs the address of one, by UDP over IPv4.
-void look_for_server(Reading& reading, const Found& protocol) {
+/// A client asks its servers, and nobody else: it needs the address of one, by UDP over IPv4. How
+/// many there are the deployment says.
+void look_for_servers(Reading& reading, const Found& protocol) {
   const Found* list = find_discovery(reading, "discoveryServersList");
   const auto servers =
       list == nullptr ? std::vector<std::string>{} : servers_in(*list->element, reading);
@@ -158,6 +159,12 @@ void look_for_server(Reading& reading, const Found& protocol) {
                        "<discoveryServersList> has none, and ROS_DISCOVERY_SERVER is read where "
                        "the protocol is SIMPLE only");
   }
+  if (servers.size() > 1) {
+    reading.setting_of(protocol).note = fmt::format(
+        "its {} servers are deployment.servers of the scenario; their addresses do not "
+        "matter",
+        servers.size());
+  }
   for (const auto& [kind, what] : {std::pair{"tcp", "TCP"}, {"udpv6", "IPv6"}}) {
     const auto is_other = [kind = kind](const std::string& one) { return !one.starts_with(kind); };
     if (std::ranges::any_of(servers, is_other)) continue;
@@ -165,7 +172,7 @@ void look_for_server(Reading& reading, const Found& protocol) {
   }
 }
 
-/// A client, or a super client, of one server. Returns whether it is.
+/// A client, or a super client. Returns whether it is.
 bool interpret_client(Reading& reading) {
   const Found* protocol = find_discovery(reading, "discoveryProtocol");
   if (protocol == nullptr) return false;
@@ -178,7 +185,7 @@ bool interpret_client(Reading& reading) {
           ? "one Discovery Server on host 0, which since 3.5 tells every client everything; its "
             "address does not matter"
           : "one Discovery Server on host 0; its address does not matter";
-  look_for_server(reading, *protocol);
+  look_for_servers(reading, *protocol);
   const Found* period = find_discovery(reading, "clientAnnouncementPeriod");
   if (period != nullptr && period->value.number > 0) {
     set_knob(reading, *period, "", "client_sync_period", period_of(period->value));

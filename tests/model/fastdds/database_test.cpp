@@ -21,7 +21,7 @@ TEST(Database, ListsOnlyWhatSomebodyNeeds) {
     props::Dice dice{seed};
     const auto relaying = dice.choice<model::Relay>(2);
     const auto discovery = dice.chance(50) ? Discovery::server : Discovery::super_client;
-    Database database{topology, discovery, {.relay = relaying}};
+    Database database{topology, topology.first_server(), discovery, {.relay = relaying}};
     std::set<Item> arrived;
     for (const std::uint32_t i : {0U, 1U, 2U, 3U}) database.join(i);
     for (int k = 0; k < 30; ++k) {
@@ -51,7 +51,7 @@ TEST(Database, ListsOnlyWhatSomebodyNeeds) {
 
 /// Two participants that know each other's announcements.
 Database two_that_know_each_other(const Topology& topology, Rejoin rejoin) {
-  Database database{topology, Discovery::super_client, {.rejoin = rejoin}};
+  Database database{topology, topology.first_server(), Discovery::super_client, {.rejoin = rejoin}};
   for (const std::uint32_t i : {0U, 1U}) database.join(i);
   for (const std::uint32_t i : {0U, 1U}) database.arrive(database.descriptor(i, Stream::pub, 0));
   (void)database.update();
