@@ -22,7 +22,7 @@ std::vector<std::int64_t> descriptor_bytes(bool of_3, int s) {
 }  // namespace
 
 Id descriptor_count(const model::Scenario& scenario, Id i, int s) {
-  if (i == scenario.deployment.size()) return 0;  // a Discovery Server
+  if (i >= scenario.deployment.size()) return 0;  // a Discovery Server
   const model::Participant& p = scenario.deployment.participants.at(i);
   return s == pub ? default_publications + p.publications : default_subscriptions + p.subscriptions;
 }

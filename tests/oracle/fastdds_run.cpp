@@ -92,6 +92,9 @@ void create_next(World& w, const Event& e) {
 }
 
 void process(World& w, const Event& e) {
+  for (const Id i : {e.from, e.to}) {
+    if (w.server && w.is_server(i)) w.serve(i);
+  }
   switch (e.kind) {
     case EventKind::service_finished:
       return service_finished(w, e);

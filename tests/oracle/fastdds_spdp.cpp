@@ -94,7 +94,7 @@ void open_reader(World& w, Id j, Id i, int s) {
 void announce(World& w, Id i, std::int64_t k) {
   const model::SpdpProfile& spdp = profile(w, i).spdp;
   if (w.server) {
-    client_announces(w, i, k);
+    announce_to_servers(w, i, k);
   } else {
     send_spdp(w, i);
   }

@@ -42,9 +42,15 @@ World::World(const model::Scenario& s, FastddsMistake m, WifiMistake of_wifi,
   if (s.deployment.host_count() < 2) throw std::invalid_argument{"no cross-host pair"};
   const model::Discovery discovery = s.dds.discovery;
   if (discovery == model::Discovery::server || discovery == model::Discovery::super_client) {
-    server.emplace();
-    participants.emplace_back();  // on host 0, from time 0 on
-    server->relays[2].history[server->relays[2].next++] = {server_id(), 2, 0};
+    const auto& listed = s.deployment.servers;
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, listed.size()); ++k) {
+      const auto id = static_cast<Id>(participants.size());
+      participants.emplace_back();  // from time 0 on
+      if (!listed.empty()) participants.back().host = listed[k].host.value;
+      Relay& announcements = servers[id].relays[2];
+      announcements.history[announcements.next++] = {id, 2, 0};
+    }
+    serve(s.deployment.size());
   }
   create_relations(*this);
   for (Id i = 0; i < participants.size(); ++i) {

@@ -295,7 +295,7 @@ struct Topic {
   std::vector<Item> subscriptions;
 };
 
-/// The Discovery Server, which has the number after all participants.
+/// A Discovery Server; they have the numbers after all participants.
 struct Server {
   std::map<Id, Registration> clients;
   std::map<std::pair<Id, int>, Learner> learners;  // (client, stream)
@@ -308,6 +308,7 @@ struct Server {
   std::set<std::pair<Item, Id>> marked;
   std::set<std::pair<Item, Id>> noted;
   std::set<std::pair<Item, Id>> waiting;
+  std::set<std::pair<Item, Id>> told;  // descriptors, by it
   using TopicKey = std::tuple<int, Id, int, Id>;
   std::map<TopicKey, Topic> topics;
   std::vector<TopicKey> dirty;
@@ -413,11 +414,18 @@ struct World {
   std::map<std::pair<Id, Id>, int> lease_epochs;  // (who is remembered, by whom)
   Time settled = 0;                               // the run does not end before
   std::int64_t missing = 0;
-  std::optional<Server> server;
+  std::map<Id, Server> servers;
+  Server* server = nullptr;  // that whose business is done, if there is any
+  Id serving = 0;
   FastddsOutcome outcome;
   FastddsOutcome admitted;  // its counts, of admitted packets
 
-  [[nodiscard]] Id server_id() const { return scenario.deployment.size(); }
+  [[nodiscard]] Id server_id() const { return serving; }
+  [[nodiscard]] bool is_server(Id i) const { return i >= scenario.deployment.size(); }
+  void serve(Id id) {
+    serving = id;
+    server = &servers.at(id);
+  }
 };
 
 // fastdds_world.cpp
@@ -585,7 +593,7 @@ void control_initial(World& w, Id j, Id i, int topic, Time delay);
 
 // server_client.cpp
 [[nodiscard]] bool is_needed(const World& w, Id i, Id j, int s, Id d);
-void client_announces(World& w, Id i, std::int64_t k);
+void announce_to_servers(World& w, Id i, std::int64_t k);
 void client_tick(World& w, Id i);
 void client_expiry(World& w, Id i);
 void receive_registration_acknack(World& w, const Packet& packet);

@@ -298,6 +298,9 @@ enum class ServerMistake : std::uint8_t {
   meets_silently,          ///< a client that meets the server sends no HEARTBEAT(p)
   greets_once,             ///< or does not repeat it
   strangers_answered,      ///< a client that does not know the server answers it
+  // Several servers.
+  first_server_only,  ///< a client announces itself to the first of all, if that is one of its own
+  told_by_any,        ///< a descriptor that another server has told counts as sent again
 };
 
 /// What the oracle of `implementation: cyclone` does wrong (specs/guide/cyclone.md has the rules).
@@ -389,7 +392,7 @@ inline constexpr std::size_t first_wifi_mistake_of_queues =
 /// The last one that scenarios without listed hosts, failing transmissions and processors can show.
 inline constexpr WifiMistake last_of_one_access_point = WifiMistake::counted_at_generation;
 inline constexpr std::size_t server_mistake_count =
-    static_cast<std::size_t>(ServerMistake::strangers_answered) + 1;
+    static_cast<std::size_t>(ServerMistake::told_by_any) + 1;
 inline constexpr std::size_t cyclone_mistake_count =
     static_cast<std::size_t>(CycloneMistake::answers_undirected) + 1;
 

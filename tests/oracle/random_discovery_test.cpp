@@ -9,6 +9,7 @@
 #include "props/generators/on_demand.hpp"
 #include "tests/oracle/comparison.hpp"
 #include "tests/oracle/random_scenario.hpp"
+#include "tests/oracle/sharp_scenario.hpp"
 
 namespace stormproof::oracle {
 namespace random_discovery_test {
@@ -48,6 +49,16 @@ TEST_P(RandomDiscovery, ProductAndOracleAgreeOnThreadsThatTakeTime) {
     Scenario scenario = random_scenario_of(GetParam(), seed);
     props::Dice dice{seed};
     props::draw_processor(dice, scenario);
+    const auto found = difference(scenario);
+    ASSERT_FALSE(found) << "seed " << seed << ": " << *found;
+  }
+}
+
+TEST_P(RandomDiscovery, ProductAndOracleAgreeOnSeveralServers) {
+  if (GetParam() == Discovery::static_peers) return;
+  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+    Scenario scenario = random_scenario_of(GetParam(), seed);
+    draw_unlinked_servers(seed, scenario);
     const auto found = difference(scenario);
     ASSERT_FALSE(found) << "seed " << seed << ": " << *found;
   }

@@ -41,7 +41,7 @@ void arm_announcements(World& w, Id i) {
   if (r.expiry_pending) return;
   r.expiry_pending = true;
   schedule_after(w, w.scenario.dds.server.pdp_heartbeat_period,
-                 make_event(EventKind::client_expiry, i, i, participants_stream));
+                 make_event(EventKind::client_expiry, i, w.server_id(), participants_stream));
 }
 
 void open_learner(World& w, Id j, int stream) {
@@ -102,11 +102,12 @@ void learn_endpoint(World& w, Id j, const Item& item) {
 // Whether discovery is complete only if j has received the descriptor of i.
 bool is_needed(const World& w, Id i, Id j, int s, Id d) {
   if (!w.server) return cross_host(w, i, j) && !dies(w.scenario, i) && !dies(w.scenario, j);
-  if (i == w.server_id() || j == w.server_id()) return false;
+  if (w.is_server(i) || w.is_server(j)) return false;
   const int topic = topic_of(s, d);
   return topic != no_topic && descriptor_of(1 - s, topic) < descriptor_count(w.scenario, j, 1 - s);
 }
 
+namespace {
 void client_announces(World& w, Id i, std::int64_t k) {
   if (k > 0) return announce_to_server(w, i);
   if (knows_guid(w)) {
@@ -118,14 +119,26 @@ void client_announces(World& w, Id i, std::int64_t k) {
     announce_to_server(w, i);
   }
   schedule_after(w, w.scenario.dds.server.client_sync_period,
-                 make_event(EventKind::client_tick, i, i, 0));
+                 make_event(EventKind::client_tick, i, w.server_id(), 0));
+}
+}  // namespace
+
+void announce_to_servers(World& w, Id i, std::int64_t k) {
+  const std::vector<std::uint64_t>& own = w.scenario.deployment.participants.at(i).servers;
+  for (const auto& [id, server] : w.servers) {
+    const std::uint64_t place = id - w.scenario.deployment.size();
+    if (!own.empty() && std::find(own.begin(), own.end(), place) == own.end()) continue;
+    if (w.makes(ServerMistake::first_server_only) && id != w.servers.begin()->first) continue;
+    w.serve(id);
+    client_announces(w, i, k);
+  }
 }
 
 void client_tick(World& w, Id i) {
   if (!w.server->clients[i].knows_server && !w.makes(ServerMistake::matches_at_first_tick)) {
     if (!w.makes(ServerMistake::silent_until_known)) announce_to_server(w, i);
     schedule_after(w, w.scenario.dds.server.client_sync_period,
-                   make_event(EventKind::client_tick, i, i, 0));
+                   make_event(EventKind::client_tick, i, w.server_id(), 0));
     return;
   }
   for (int s = 0; s < 2; ++s) {

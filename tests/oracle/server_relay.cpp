@@ -93,9 +93,9 @@ void count_data(World& w, const Item& item, Id j) {
     ++w.outcome.pdp_data;
     return;
   }
-  Relation& r = relation(w, item.participant, j, item.stream);
-  ++(r.delivered.at(item.descriptor) ? w.outcome.repair_data : w.outcome.initial_data);
-  r.delivered.at(item.descriptor) = true;
+  Server& teller = w.makes(ServerMistake::told_by_any) ? w.servers.begin()->second : *w.server;
+  const bool first = teller.told.insert({item, j}).second;
+  ++(first ? w.outcome.initial_data : w.outcome.repair_data);
 }
 
 std::int64_t number_of(const Relay& relay, const Item& item) {

@@ -176,7 +176,14 @@ Scenario varied_server_scenario(std::uint64_t seed) {
   using enum model::Discovery;
   Scenario scenario = random_fastdds_scenario(seed);
   props::draw_discovery(seed, seed % 3 == 0 ? super_client : server, scenario);
+  if (seed % 5 == 4) draw_unlinked_servers(seed, scenario);
   return varied(std::move(scenario), seed);
+}
+
+void draw_unlinked_servers(std::uint64_t seed, Scenario& scenario) {
+  Dice dice{seed};
+  props::draw_servers(dice, scenario);
+  for (model::DiscoveryServer& one : scenario.deployment.servers) one.servers.clear();
 }
 
 // Every other one is small, on a channel with short packets, and loses many: what is asked for

@@ -27,6 +27,8 @@ namespace stormproof::oracle {
 [[nodiscard]] model::Scenario random_mixed_scenario(std::uint64_t seed);
 /// One of clients or super clients of a Discovery Server.
 [[nodiscard]] model::Scenario varied_server_scenario(std::uint64_t seed);
+/// Several servers, none of which looks for another one, which the oracle does not know.
+void draw_unlinked_servers(std::uint64_t seed, model::Scenario& scenario);
 [[nodiscard]] model::Scenario varied_cyclone_scenario(std::uint64_t seed);
 /// One of Fast DDS over a channel of units, or with a sender that stalls, or counted at admission.
 [[nodiscard]] model::Scenario varied_wifi_scenario(std::uint64_t seed);
