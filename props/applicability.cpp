@@ -37,7 +37,9 @@ const Wording* reading_of(const Property& property, model::ImplementationKind im
   if (model::traits_of(implementation).is_known_to_engines) return nullptr;
   const Words words = words_of(implementation);
   if (words.descriptors) return of(property.amended);
-  if (model::traits_of(implementation).has_server) return of(property.clients);
+  if (model::traits_of(implementation).has_server) {
+    return of(property.clients ? property.clients : property.relayed);
+  }
   return words.samples ? of(property.samples) : nullptr;
 }
 
@@ -58,7 +60,7 @@ std::string_view why_not_said(const Property& property, model::ImplementationKin
       if (words.closed_loop && is_read) return {};
       return "it is stated for the rules of the closed-loop model, amended or not, and "
              "live.recovery and live.isolation for Fast DDS whose participants have a life "
-             "(deployment.life), live.recovery for Cyclone DDS, too";
+             "(deployment.life), live.recovery for Cyclone DDS and Discovery Servers, too";
     case Vocabulary::descriptors:
       if (is_read) return {};
       if (!words.samples) return of_known_writers;
@@ -166,9 +168,9 @@ std::string_view why_not_mixed(const Property& property, const model::Scenario& 
 std::string_view why_not(const Property& property, const model::Scenario& scenario) {
   const bool is_living = model::is_living(scenario);
   const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
-  const bool can_read = traits.writer == model::Writer::stateful ||
-                        property.about == Vocabulary::rules ||
-                        (traits.has_event_thread && property.samples);
+  const bool can_read =
+      traits.writer == model::Writer::stateful || property.about == Vocabulary::rules ||
+      (traits.has_event_thread && property.samples) || (traits.has_server && property.relayed);
   const bool is_read = is_living && property.of_lives && can_read;
   std::string_view why = why_not_said(property, model::kind_of(scenario.dds));
   if (is_read) why = {};
@@ -181,7 +183,8 @@ std::string_view why_not(const Property& property, const model::Scenario& scenar
     }
     if (traits.has_server) {
       return "it is stated for participants that nobody forgets; with a Discovery Server and "
-             "deployment.life only machines, network, results and what rules do are checked";
+             "deployment.life only machines, network, results, what rules do and recovery are "
+             "checked";
     }
     return "it is stated for participants of Fast DDS that nobody forgets; with deployment.life "
            "only machines, network, results, what rules do, recovery and isolation are checked";
@@ -270,7 +273,7 @@ Applicability applicability_of(const Property& property, model::ImplementationKi
   const Wording* const reading = reading_of(property, implementation);
   Applicability answer;
   answer.why_not = why_not_said(property, implementation);
-  answer.is_about_clients = traits.has_server && reading != nullptr;
+  answer.is_about_clients = traits.has_server && property.clients.has_value();
   answer.engines = engines_of(property, implementation);
   const bool stateful = is_stateful(answer, implementation);
   answer.weakness = stateful ? property.stateful_weakness : property.weakness;

@@ -221,6 +221,12 @@ const std::array properties{
         .source = "museum.md, the properties",
         .about = Vocabulary::closed_loop,
         .amended = Wording{.engines = {tables}},
+        .relayed =
+            Wording{.addition =
+                        "With Discovery Servers: everybody knows what it matches, and nobody who "
+                        "is gone; B = 2 L + E + P + 2 T + k (R + H + N + 4 Δ), P until the next "
+                        "announcement, T a client's tick, R the server's routine, k rounds of "
+                        "repairs."},
         .samples =
             Wording{.addition =
                         "Of Cyclone DDS: who has somebody else knows exactly what that one has; B "

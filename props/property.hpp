@@ -76,6 +76,7 @@ struct Property {
   Vocabulary about = Vocabulary::descriptors;
   std::optional<Wording> amended = {};  ///< of the amended rules of the closed-loop model
   std::optional<Wording> clients = {};  ///< of what clients tell a Discovery Server
+  std::optional<Wording> relayed = {};  ///< of all that a Discovery Server and its clients do
   std::optional<Wording> samples = {};  ///< of a writer that numbers samples: Cyclone DDS's
   bool of_lives = false;  ///< also of participants of Fast DDS that forget and come back
   Premise counts_on = Premise::run;

@@ -16,8 +16,8 @@
 #include "props/monitors/monitors.hpp"
 #include "props/monitors/observer.hpp"
 #include "props/monitors/received_descriptors.hpp"
+#include "props/monitors/recovery_as_counted.hpp"
 #include "props/monitors/recovery_observer.hpp"
-#include "props/monitors/recovery_of_samples.hpp"
 
 namespace stormproof::props {
 
@@ -147,8 +147,9 @@ class Recovery : public RecoveryObserver {
 
 MonitorPtr watch_recovery(const model::Scenario& scenario,
                           std::optional<model::Nanoseconds> bound) {
-  if (model::traits_of(scenario.dds).has_event_thread) {
-    return watch_recovery_of_samples(scenario, bound);
+  const model::ImplementationTraits& traits = model::traits_of(scenario.dds);
+  if (traits.has_event_thread || traits.has_server) {
+    return watch_recovery_as_counted(scenario, bound);
   }
   return attentive<Recovery>(scenario, bound);
 }

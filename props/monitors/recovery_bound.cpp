@@ -12,6 +12,12 @@
 //     may ask, and asks again by itself;
 //   k rounds: one to hear of what there is, one to ask for it, and one more for each queue of
 //     repairs that fills up with what a participant sends to all others.
+// With Discovery Servers, of which no theorem says anything either, B = 2 L + E + P + 2 T + k (R +
+// H + N + 4 Δ), a margin:
+//   2 L: that somebody is gone waits for those who are behind the same outage, until their leases
+//     are over, too;
+//   P until the next announcement, T a client's tick, R the server's routine;
+//   k rounds, as above, in each of which a HEARTBEAT is lost or asked for.
 #include "props/monitors/recovery_bound.hpp"
 
 #include <algorithm>
@@ -105,12 +111,23 @@ Nanoseconds recovery_bound_of_cyclone(const model::Scenario& scenario, Nanosecon
          longest_creation(scenario) + until_announced(scenario) + of_round * rounds(scenario);
 }
 
+Nanoseconds recovery_bound_with_server(const model::Scenario& scenario, Nanoseconds delay) {
+  const model::DdsProfile& dds = scenario.dds;
+  constexpr std::int64_t rounds_of_relays = 4;
+  const Nanoseconds of_round = dds.server.server_routine_period + dds.sedp.heartbeat_period +
+                               dds.sedp.nack_response_delay + dds.sedp.heartbeat_response_delay +
+                               delay * 4;
+  return longest_lease(scenario.deployment, model::lease_of(dds)) * 2 + longest_creation(scenario) +
+         dds.spdp.period + dds.server.client_sync_period * 2 + of_round * rounds_of_relays;
+}
+
 }  // namespace
 
 Nanoseconds recovery_bound(const model::Scenario& scenario, Nanoseconds failed, Nanoseconds delay) {
   if (model::traits_of(scenario.dds).has_event_thread) {
     return recovery_bound_of_cyclone(scenario, delay);
   }
+  if (model::traits_of(scenario.dds).has_server) return recovery_bound_with_server(scenario, delay);
   const model::DdsProfile& dds = scenario.dds;
   const model::Amendments rules = dds.amendments.value_or(model::Amendments{});
   return longest_lease(scenario.deployment) + longest_creation(scenario) +

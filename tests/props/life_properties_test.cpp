@@ -251,6 +251,57 @@ TEST(CycloneRecovery, OfElevenWithoutMulticastFails) {
   EXPECT_FALSE(watched("live.recovery", scenario)->violation());
 }
 
+/// Two clients on another host and one beside each of the servers, and what happens to them.
+Scenario with_servers(const std::string& servers, const std::string& life,
+                      const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides{
+      "dds=fastdds-server-2.14.5",
+      "run_until=time_limit",
+      "time_limit=200s",
+      "deployment.servers=[" + servers + "]",
+      "deployment.life={" + life + "}",
+      "deployment.participants=[{host: 1, publications: 1, subscriptions: 1, start: 1s}, "
+      "{host: 1, publications: 1, subscriptions: 1, start: 2400ms}, "
+      "{host: 0, publications: 1, subscriptions: 1, start: 1900ms}]"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return shipped("rejoin-fastdds", overrides);
+}
+const std::string redundant = "{host: 0}, {host: 1}";
+
+/// What passes: outages of every length, deaths, and one of a pair of servers that dies.
+TEST(ServerRecovery, IsWithinTheBound) {
+  for (const char* length : {"12s", "27s", "29s", "35s", "60s"}) {
+    const std::string times = std::string{", start: 10s, end: "} + length + "}";
+    const std::string cut = "outages: [{from: 1, from_reach: host, to: 0, to_reach: all" + times +
+                            ", {from: 0, from_reach: all, to: 1, to_reach: host" + times + "]";
+    const auto monitor = watched("live.recovery", with_servers("{host: 0}", cut));
+    EXPECT_FALSE(monitor->violation()) << length << ": " << monitor->violation()->reason;
+    EXPECT_FALSE(monitor->is_undecided());
+  }
+  for (const char* life :
+       {"mute: [{participant: 0, from: 10s}]", "mute: [{participant: 3, from: 10s}]",
+        "restarts: [{participant: 3, stop: 10s, start: 12s}]"}) {
+    const auto monitor = watched("live.recovery", with_servers(redundant, life));
+    EXPECT_FALSE(monitor->violation()) << life << ": " << monitor->violation()->reason;
+    EXPECT_FALSE(monitor->is_undecided());
+  }
+}
+
+/// Who dies while no server lives: exhibit E21; a client that is dropped: E22.
+TEST(ServerRecovery, OfGhostsAndOfTheDroppedFails) {
+  const std::string deaths =
+      "restarts: [{participant: 3, stop: 10s, start: 45s}], mute: [{participant: 0, from: 12s}]";
+  EXPECT_TRUE(watched("live.recovery", with_servers("{host: 0}", deaths))->violation());
+  EXPECT_FALSE(watched("live.recovery", with_servers(redundant, deaths))->violation());
+  const std::string cut =
+      "outages: [{from: 1, from_reach: host, to: 0, to_reach: all, start: 10s, end: 28400ms}, "
+      "{from: 0, from_reach: all, to: 1, to_reach: host, start: 10s, end: 28400ms}]";
+  const auto known = with_servers("{host: 0}", cut);
+  EXPECT_FALSE(watched("live.recovery", known)->violation());
+  const auto dropped = with_servers("{host: 0}", cut, {"dds.rejoin=dropped"});
+  EXPECT_TRUE(watched("live.recovery", dropped)->violation());
+}
+
 TEST(FastDdsIsolation, IsBrokenByAPeriodThatFollowsTheSlowest) {
   Scenario scenario =
       shipped("rejoin-fastdds", {"run_until=time_limit", "time_limit=20s", "dds.sedp.piggyback=off",
@@ -294,6 +345,11 @@ TEST(LifeProperties, SayWhereTheySayNothing) {
   EXPECT_EQ(why("live.recovery"), "");
   EXPECT_NE(why("live.isolation").find("constant delays"), std::string::npos);
   scenario.dds.implementation = model::ImplementationKind::cyclone;
+  EXPECT_EQ(why("live.recovery"), "");
+  EXPECT_NE(why("live.isolation"), "");
+  scenario.dds = {};
+  scenario.dds.implementation = model::ImplementationKind::fastdds;
+  scenario.dds.discovery = model::Discovery::server;
   EXPECT_EQ(why("live.recovery"), "");
   EXPECT_NE(why("live.isolation"), "");
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "checker/experiments/grids/grid.hpp"
 #include "checker/experiments/museum/certified.hpp"
 #include "checker/experiments/museum/claims.hpp"
 #include "checker/experiments/museum/exhibit.hpp"
@@ -202,7 +203,7 @@ class ExhibitReader {
     }
     std::vector<config::Override> overrides;
     for (const config::Member& member : changes->members) {
-      of.changes.emplace_back(member.key, member.value.text);
+      of.changes.emplace_back(member.key, grids::flow_text(member.value));
       overrides.push_back({member.key, member.value});
     }
     auto resolved = config::with_profile_keys(

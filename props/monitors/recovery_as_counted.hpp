@@ -1,4 +1,5 @@
-// live.recovery where participants write samples about what they have: Cyclone DDS.
+// live.recovery where the run itself counts what participants do not agree on: Cyclone DDS, and
+// Fast DDS with Discovery Servers.
 #pragma once
 
 #include <optional>
@@ -8,8 +9,8 @@
 namespace stormproof::props {
 
 /// From the last failure on everybody agrees with everybody else within the bound: who is there
-/// knows exactly what the others have, and nobody who is gone.
-[[nodiscard]] MonitorPtr watch_recovery_of_samples(const model::Scenario& scenario,
+/// knows what the others have, or with a server what it matches of that, and nobody who is gone.
+[[nodiscard]] MonitorPtr watch_recovery_as_counted(const model::Scenario& scenario,
                                                    std::optional<model::Nanoseconds> bound);
 
 }  // namespace stormproof::props

@@ -1,8 +1,8 @@
-// What participants do not agree on is counted by the run (model/cyclone/living_completion.hpp):
-// endpoints that one has and the other does not know, or knows and that exist no more, and
-// participants that are gone and still known. The event that the monitor objects to is the last one
-// that changed something of it.
-#include "props/monitors/recovery_of_samples.hpp"
+// What participants do not agree on is counted by the run (model/cyclone/living_completion.hpp,
+// model/engine/living_host.hpp): endpoints that one has and the other does not know, or knows and
+// that exist no more, and participants that are gone and still known. The event that the monitor
+// objects to is the last one that changed something of it.
+#include "props/monitors/recovery_as_counted.hpp"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ namespace stormproof::props {
 
 namespace {
 
-class RecoveryOfSamples : public RecoveryObserver {
+class RecoveryAsCounted : public RecoveryObserver {
  public:
   using RecoveryObserver::RecoveryObserver;
 
@@ -45,9 +45,9 @@ class RecoveryOfSamples : public RecoveryObserver {
 
 }  // namespace
 
-MonitorPtr watch_recovery_of_samples(const model::Scenario& scenario,
+MonitorPtr watch_recovery_as_counted(const model::Scenario& scenario,
                                      std::optional<model::Nanoseconds> bound) {
-  return attentive<RecoveryOfSamples>(scenario, bound);
+  return attentive<RecoveryAsCounted>(scenario, bound);
 }
 
 }  // namespace stormproof::props
