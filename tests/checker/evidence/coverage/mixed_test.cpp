@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "checker/evidence/coverage/study.hpp"
+#include "model/config/scenario_file.hpp"
 
 namespace stormproof::prediction {
 namespace mixed_test {
