@@ -104,9 +104,8 @@ const std::array properties{
              .clients = Wording{.engines = {tables}},
              .samples = Wording{.engines = {tables, explorer}}},
     Property{.id = "safety.ack-stable",
-             .statement = "What is acknowledged stays so unless its reader forgot it, or an older "
-                          "ACKNACK comes late.",
-             .formal = "□ (C leaves A ⇒ X = 0 ∨ an ACKNACK was overtaken)",
+             .statement = "What is acknowledged stays so unless its reader forgot it.",
+             .formal = "□ (C leaves A ⇒ X = 0)",
              .engines = {exact_run},
              .source = "museum.md, the properties",
              .amended = Wording{},

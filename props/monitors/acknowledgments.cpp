@@ -1,11 +1,8 @@
 // safety.ack-implies-received: a descriptor that the writer takes as acknowledged (A) has been
 // received (X = 1); it is looked at when it enters A. safety.ack-stable: it leaves A only if its
 // reader has not got it any more. What was acknowledged before the run is not judged: a reader may
-// have forgotten it there. Nor is what an ACKNACK takes back that another one has overtaken: it was
-// true when it was sent, and no rule of the writer tells that it is old.
-#include <algorithm>
+// have forgotten it there.
 #include <bit>
-#include <vector>
 
 #include "model/implementations.hpp"
 #include "props/monitors/data_observer.hpp"
@@ -81,19 +78,6 @@ class StabilityOfAcknowledgments : public Acknowledgments {
   explicit StabilityOfAcknowledgments(const model::Scenario& scenario)
       : Acknowledgments{"safety.ack-stable", scenario} {}
 
-  void run_started(const model::Topology& topology) override {
-    Acknowledgments::run_started(topology);
-    newest_.assign(topology.relation_count(), 0);
-  }
-  void received(const model::Packet& packet, std::uint32_t receiver) override {
-    Acknowledgments::received(packet, receiver);
-    is_overtaken_ = false;
-    if (packet.kind != model::PacketKind::acknack) return;
-    std::uint64_t& newest = newest_[packet.relation()];
-    is_overtaken_ = packet.number < newest;
-    newest = std::max(newest, packet.number);
-  }
-
   [[nodiscard]] std::vector<std::string> remarks() const override {
     return {std::to_string(taken_back_) + " acknowledgments were taken back of what was missing."};
   }
@@ -101,7 +85,7 @@ class StabilityOfAcknowledgments : public Acknowledgments {
  protected:
   void moved(const Moved& what, std::string_view before, std::string_view,
              std::uint64_t has) override {
-    if (before != "A" || is_overtaken_) return;
+    if (before != "A") return;
     taken_back_ += static_cast<std::uint64_t>(std::popcount(what.descriptors & ~has));
     const std::uint64_t wrong = what.descriptors & has;
     if (wrong == 0) return;
@@ -110,8 +94,6 @@ class StabilityOfAcknowledgments : public Acknowledgments {
   }
 
  private:
-  std::vector<std::uint64_t> newest_;  // ACKNACK that arrived, by relation
-  bool is_overtaken_ = false;          // the ACKNACK that arrives
   std::uint64_t taken_back_ = 0;
 };
 

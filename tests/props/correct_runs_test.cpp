@@ -70,6 +70,8 @@ bool may_violate(const Scenario& scenario, std::string_view property) {
   if (property == "live.no-stall" || property == "live.completion") {
     return !model::fastdds::announcements_reach_all(scenario);
   }
+  // An initial ACKNACK that another one overtakes looks like one of a reader that forgot (E16).
+  if (property == "safety.ack-stable") return !scenario.wireless.packet_delays.empty();
   if (property == "live.quiescence") {
     return !is_fastdds(scenario) && may_lose_heartbeats(scenario);
   }

@@ -25,7 +25,9 @@ using Truth = std::optional<bool>;
 
 class Excluded {
  public:
-  Excluded(const Program& program, const model::DdsProfile& dds) : program_{program}, dds_{dds} {
+  /// `one_server`: no client of a server is a server itself.
+  Excluded(const Program& program, const model::DdsProfile& dds, bool one_server = false)
+      : program_{program}, dds_{dds}, one_server_{one_server} {
     for (const auto& rule : program.rules) walk(rule.name, rule.body, false);
     for (const auto& procedure : program.procedures) {
       if (!procedure.is_contract) walk(procedure.name, procedure.body, false);
@@ -77,6 +79,7 @@ class Excluded {
   }
   /// A fact by its definition.
   [[nodiscard]] Truth of_thing(const fsm::program::Thing& thing) const {
+    if (one_server_ && thing.name == "FromServer") return false;
     if (thing.kind == fsm::program::Thing::Kind::fact) return truth(thing.definition);
     if (thing.kind != fsm::program::Thing::Kind::toggle) return std::nullopt;
     const auto value = model::knob_value(thing, dds_);
@@ -85,6 +88,7 @@ class Excluded {
 
   const Program& program_;
   const model::DdsProfile& dds_;
+  const bool one_server_;
   std::vector<std::string> ids_;
 };
 
@@ -110,6 +114,14 @@ std::vector<ImpossibleEffects> excluded_effects(const model::DdsProfile& dds) {
   }
   if (!left.empty()) all.push_back({"the knobs together", std::move(left)});
   return all;
+}
+
+ImpossibleEffects effects_between_servers(const model::DdsProfile& dds) {
+  const Program& program = model::program_of(dds);
+  const Excluded always{program, dds};
+  ImpossibleEffects group{"deployment.servers: one", Excluded{program, dds, true}.ids()};
+  std::erase_if(group.effects, [&](const std::string& id) { return always.has(id); });
+  return group;
 }
 
 }  // namespace stormproof::tables

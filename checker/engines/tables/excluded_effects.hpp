@@ -13,5 +13,7 @@ namespace stormproof::tables {
 
 /// Each effect is in the group of the first key that excludes it, in the order of the page.
 [[nodiscard]] std::vector<ImpossibleEffects> excluded_effects(const model::DdsProfile& dds);
+/// Those that a deployment with one server excludes besides: what servers say to each other.
+[[nodiscard]] ImpossibleEffects effects_between_servers(const model::DdsProfile& dds);
 
 }  // namespace stormproof::tables

@@ -21,6 +21,7 @@ std::vector<ImpossibleEffects> impossible_effects(const model::DdsProfile& dds) 
     simple.discovery = model::Discovery::simple;
     std::vector<ImpossibleEffects> all = impossible_effects(simple);
     std::ranges::move(excluded_effects(dds), std::back_inserter(all));
+    all.push_back(effects_between_servers(dds));
     return all;
   }
   // Engines do not execute the rules of Cyclone DDS.

@@ -44,7 +44,8 @@ TEST(Plots, HaveAMarkForEachConfiguration) {
        at = svg.find(">2</text>", at + 1)) {
     ++cells;
   }
-  EXPECT_EQ(cells, 90U + 2U) << "the made-up ratio is 2 everywhere; N_P 2 and N_E 2 are labels";
+  EXPECT_EQ(cells, 90U + 3U)
+      << "the made-up ratio is 2 everywhere; N_P 2, N_E 2 and the least of the colours are labels";
 }
 
 TEST(Plots, AreDrawnWithoutResults) {

@@ -122,9 +122,9 @@ TEST(ChartSvg, DrawsReferencesAndAnnotations) {
   chart.annotations = {{1, 0.5, "here"}, {99, 99, "outside"}};
   const std::string svg = to_svg(chart);
   expect_sound(svg);
-  EXPECT_EQ(count(svg, "class=\"reference\""), 3U);
-  EXPECT_EQ(texts_of_class(svg, "halo"),
-            (std::vector<std::string>{"model = observed", "limit", "here"}));
+  EXPECT_EQ(count(svg, "class=\"reference\""), 4U) << "the diagonal is in the legend, too";
+  EXPECT_EQ(texts_of_class(svg, "halo"), (std::vector<std::string>{"limit", "here"}));
+  EXPECT_EQ(count(svg, ">model = observed</text>"), 1U);
 }
 
 TEST(ChartSvg, EscapesEveryText) {
