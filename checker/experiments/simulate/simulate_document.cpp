@@ -183,7 +183,8 @@ void add_channels(Blocks& blocks, const RunResult& result) {
     Table table{{{"channel " + channel.name},
                  {"time", to_right},
                  {"share", to_right},
-                 {.head = fmt::format("busy {} of the time", percent(busy, elapsed))}},
+                 {.head = fmt::format("busy {} of the time", percent(busy, elapsed)),
+                  .audience = Audience::terminal}},
                 {}};
     const auto row = [&](const char* name, Nanoseconds time) {
       const double share = elapsed > 0 ? static_cast<double>(time.count()) / elapsed : 0;

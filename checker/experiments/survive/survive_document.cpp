@@ -207,9 +207,17 @@ std::string to_svg(const Report& report) {
   chart.title = "Recovery over how long somebody is away";
   chart.description =
       "From the end of the failure until everybody has everything again: median and range of the "
-      "runs; what is not survived has no point.";
+      "runs; crosses above: what is not survived.";
   chart.x = {"away", plot::Scale::log, {}, {}, "s", {}};
   chart.y = {"recovery", plot::Scale::linear, 0.0, {}, "s", {}};
+  double top = 1;  // s, above all that recovers
+  for (const Version& version : report.versions) {
+    for (const Outcome& outcome : version.outcomes) {
+      if (outcome.recovery.max) top = std::max(top, 1.1e-9 * *outcome.recovery.max);
+    }
+  }
+  plot::Series never{"does not recover"};
+  never.mark = plot::Mark::crosses;
   for (const Version& version : report.versions) {
     for (const Kind kind : {Kind::network, Kind::host, Kind::server_killed}) {
       plot::Series series;
@@ -221,10 +229,14 @@ std::string to_svg(const Report& report) {
         series.y.push_back(seconds(outcome.recovery.median));
         series.low.push_back(seconds(outcome.recovery.min));
         series.high.push_back(seconds(outcome.recovery.max));
+        if (outcome.is_survived()) continue;
+        never.x.push_back(series.x.back());
+        never.y.push_back(top);
       }
       if (series.x.size() > 1) chart.series.push_back(std::move(series));
     }
   }
+  if (!never.x.empty()) chart.series.push_back(std::move(never));
   return plot::to_svg(chart);
 }
 

@@ -80,6 +80,10 @@ std::vector<Scenario> drawn_on_demand() {
       list.push_back(plain);
       draw_discovery(seed, discovery, list.back());
     }
+    Scenario several = plain;
+    draw_discovery(seed, model::Discovery::server, several);
+    draw_servers(dice, several);
+    list.push_back(std::move(several));
   }
   return list;
 }
@@ -98,9 +102,11 @@ void collect(const Json& json, const std::string& key,
   }
 }
 
-/// `allow_multicast: default` is another word as soon as the network is known.
+/// `allow_multicast: default` is another word as soon as the network is known, and a queue without
+/// limits is none.
 bool is_resolved(const std::string& key, const std::string& choice) {
-  return key == "dds.allow_multicast" && choice == "default";
+  return (key == "dds.allow_multicast" && choice == "default") ||
+         (key == "wireless.queue.discipline" && choice == "unlimited");
 }
 /// Keys that a random scenario does not have: the short form, what changes no run, the lease of
 /// a profile, as a life is drawn with its own, and profiles of participants, whose keys are those
