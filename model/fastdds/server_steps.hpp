@@ -173,8 +173,9 @@ class ServerSteps {
   }
   template <class World>
   void perform(server::MeetServer, World& w) {
-    host().template run<fsm::composition::Happens<server::Meets>>(
-        w.template number<comp::owner::pair>());
+    const auto pair = w.template number<comp::owner::pair>();
+    if (!steps_of_.topology.is_server(ends_of(pair).destination)) return;  // only by a mistake
+    host().template run<fsm::composition::Happens<server::Meets>>(pair);
   }
   template <class World>
   void perform(server::JoinParticipants, World& w) {

@@ -52,6 +52,10 @@ std::string survives_because(const comp::EffectMutation& mutation) {
            "due "
            "at any time by the contract of PlanBatches";
   }
+  const bool takes = mutation.what == "perform TakeRelayed" || mutation.what == "call TakePacket";
+  if (takes && mutation.change == EffectChange::twice) {
+    return "a packet that is taken twice says nothing the second time";
+  }
   return "";
 }
 
