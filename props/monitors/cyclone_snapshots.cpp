@@ -3,7 +3,6 @@
 // missing; a pre-emptive one claims nothing. It leaves later, when the thread gets to it, and
 // arrives as it was made, however much has come in the meantime.
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,10 +89,9 @@ class CycloneSnapshots : public SubmessageObserver<> {
     reader.sent.emplace_back(acknack.count, std::move(leaving));
   }
   void compare(std::uint32_t relation, Relation& reader, const model::Submessage& acknack) {
-    const auto latest = std::views::reverse(reader.sent);
-    const auto sent =
-        std::ranges::find(latest, acknack.count, [](const auto& one) { return one.first; });
-    if (sent == latest.end() || sent->second != said(acknack)) {
+    const auto is_it = [&](const auto& one) { return one.first == acknack.count; };
+    const auto sent = std::find_if(reader.sent.rbegin(), reader.sent.rend(), is_it);  // the latest
+    if (sent == reader.sent.rend() || sent->second != said(acknack)) {
       return object_to(relation, "arrives as another one than was sent");
     }
     ++compared_;
