@@ -38,6 +38,16 @@ Result<Nanoseconds, std::string> parse_duration(const std::string& option, const
   return *duration;
 }
 
+Result<Nanoseconds, std::string> parse_positive_duration(const std::string& option,
+                                                         const std::string& text,
+                                                         Nanoseconds most) {
+  auto duration = parse_duration(option, text, most);
+  if (duration && duration->count() == 0) {
+    return fmt::format("{} {}: expected more than that", option, text);
+  }
+  return duration;
+}
+
 Result<std::pair<Nanoseconds, Nanoseconds>, std::string> parse_duration_range(
     const std::string& option, const std::string& text, Nanoseconds most) {
   constexpr std::string_view separator = "..";

@@ -15,6 +15,10 @@ namespace stormproof::cli {
 [[nodiscard]] model::config::Result<model::Nanoseconds, std::string> parse_duration(
     const std::string& option, const std::string& text, model::Nanoseconds most);
 
+/// The same, but more than nothing.
+[[nodiscard]] model::config::Result<model::Nanoseconds, std::string> parse_positive_duration(
+    const std::string& option, const std::string& text, model::Nanoseconds most);
+
 /// "LO..HI", both from 0 to `most` and in ascending order.
 [[nodiscard]] model::config::Result<std::pair<model::Nanoseconds, model::Nanoseconds>, std::string>
 parse_duration_range(const std::string& option, const std::string& text, model::Nanoseconds most);

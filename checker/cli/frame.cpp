@@ -100,9 +100,8 @@ std::optional<std::string> refuse_folder(const std::string& option, const std::s
 model::config::Result<std::optional<double>, std::string> seconds_of(const std::string& time) {
   if (time.empty()) return std::optional<double>{};
   constexpr model::Nanoseconds longest{1'000'000'000'000'000};
-  const auto duration = parse_duration("--time", time, longest);
+  const auto duration = parse_positive_duration("--time", time, longest);
   if (!duration) return duration.error();
-  if (duration->count() == 0) return std::string{"--time " + time + ": expected more than that"};
   return std::optional{static_cast<double>(duration->count()) * 1e-9};
 }
 

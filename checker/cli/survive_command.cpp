@@ -21,23 +21,15 @@ struct SurviveArguments {
 
 constexpr model::Nanoseconds longest{1'000'000'000'000};
 
-/// A duration that is more than nothing.
-model::config::Result<model::Nanoseconds, std::string> positive(const std::string& option,
-                                                                const std::string& text) {
-  auto value = parse_duration(option, text, longest);
-  if (value && value->count() == 0) return option + " " + text + ": expected more than that";
-  return value;
-}
-
 std::optional<Complaint> complete(SurviveArguments& arguments) {
   survive::Request& request = arguments.request;
   if (!arguments.limit.empty()) {
-    const auto limit = positive("--limit", arguments.limit);
+    const auto limit = parse_positive_duration("--limit", arguments.limit, longest);
     if (!limit) return Complaint{limit.error()};
     request.limit = *limit;
   }
   for (const std::string& text : arguments.lengths) {
-    const auto length = positive("--length", text);
+    const auto length = parse_positive_duration("--length", text, longest);
     if (!length) return Complaint{length.error()};
     request.lengths.push_back(*length);
   }

@@ -22,7 +22,8 @@ class Knowledge {
  public:
   explicit Knowledge(const model::Scenario& scenario)
       : of_cyclone_{model::traits_of(scenario.dds).has_event_thread},
-        is_relayed_{model::traits_of(scenario.dds).has_server} {}
+        is_relayed_{model::traits_of(scenario.dds).has_server},
+        descriptors_{scenario.dds.descriptors} {}
 
   /// Whether it can be said: not where a server lives, since what clients forget without being told
   /// is in no packet.
@@ -58,7 +59,10 @@ class Knowledge {
   [[nodiscard]] std::uint32_t known(std::uint32_t pair) const { return known_[pair]; }
   /// How many there are.
   [[nodiscard]] std::uint32_t all(std::uint32_t pair) const {
-    if (is_relayed_) return needed(pair);
+    const model::Pair& ends = topology_->pair(pair);
+    if (is_relayed_) {
+      return topology_->matching_descriptors(ends.source, ends.destination, descriptors_);
+    }
     return topology_->descriptor_count(2 * pair) + topology_->descriptor_count(2 * pair + 1);
   }
 
@@ -89,19 +93,6 @@ class Knowledge {
     recount(pair);
   }
 
-  /// How many descriptors of the pair's source are on a topic of which its destination has the
-  /// opposite side.
-  [[nodiscard]] std::uint32_t needed(std::uint32_t pair) const {
-    std::uint32_t sum = 0;
-    for (const model::Stream s : {model::Stream::pub, model::Stream::sub}) {
-      const auto relation = static_cast<std::uint32_t>(2 * pair + model::index_of(s));
-      for (std::uint32_t d = 0; d < topology_->descriptor_count(relation); ++d) {
-        sum += model::fastdds::has_other_side(*topology_, topology_->pair(pair).destination, s, d);
-      }
-    }
-    return sum;
-  }
-
   void recount(std::uint32_t pair) {
     const props::RelationWords& words = of_cyclone_ || is_relayed_ ? samples_ : of_packets_.words();
     std::uint32_t sum = 0;
@@ -115,6 +106,7 @@ class Knowledge {
 
   const bool of_cyclone_;
   const bool is_relayed_;
+  const model::DescriptorProfile descriptors_;
   const model::Topology* topology_ = nullptr;
   props::ReceivedDescriptors of_packets_;
   props::ReceivedSubmessages of_submessages_;
